@@ -21,8 +21,8 @@
 #include "support/printable.h"
 #include "support/progress.h"
 #include "viewer/demos.h"
+#include "viewer/panel.h"
 #include "viewer/session.h"
-#include "viewer/typing.h"
 #include "viewer/window.h"
 
 namespace edgewise::tools {
@@ -35,14 +35,8 @@ constexpr int kMostPictures = 100'000;
 void check_windows(viewer::ShowWindow show_window) {
   if (show_window == nullptr)
     throw std::invalid_argument(
-        "this program was built without SDL2 and cannot open a window: use --terminal, or install "
-        "libsdl2-dev and rebuild");
-}
-
-// Paints the texts into a drawn screen and writes it as a picture.
-void write_screen(const OutputFile& file, viewer::Screen& screen, int font_scale) {
-  viewer::paint(screen, font_scale);
-  write_image(file.path, screen.picture, file.format);
+        "this program was built without SDL2 or Dear ImGui and cannot open a window: use --terminal, or "
+        "install libsdl2-dev and libimgui-dev and rebuild");
 }
 
 // Prints the names of the files that the session has saved.
@@ -97,14 +91,17 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   // Before a window opens, so that an invalid scene is reported first.
   Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   const Size size{shot.frontend.width, shot.frontend.height};
-  const int scale = viewer::font_scale(size.height);
+  viewer::Panel panel;
   viewer::Session session = make_session(o, std::move(shot));
-  if (!o.terminal || !strokes.empty()) viewer::type(session, strokes, size, viewer::font_cell(scale));
+  if (!o.terminal || !strokes.empty()) {
+    session.draw(size, o.terminal ? 0 : panel.width_px(size));
+    session.type(strokes);
+  }
   if (output) {
     std::vector<Output> files{{"--output", output->path}};
     for (const std::string& saved : session.saved()) files.push_back({"the key p", saved});
     check_files(files, {});
-    write_screen(*output, session.draw(size, viewer::font_cell(scale)), scale);
+    write_image(output->path, panel.show(session, size), output->format);
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
@@ -180,31 +177,48 @@ viewer::Session session_of(const viewer::Demo& demo, const DemoOptions& o, bool 
   return viewer::Session(std::move(start));
 }
 
+// By default, the panel stands beside a picture of kDemoSize.
+Size size_of(const DemoOptions& o, const viewer::Panel& panel) {
+  const auto [width, height] = viewer::kDemoSize;
+  return o.size.value_or(Size{width + panel.width_px({2 * width, height}), height});
+}
+
 // Plays all steps and writes `o.frames` pictures at equal time intervals. The last one shows the final state.
 void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPaths& paths,
                   Progress& progress) {
-  const Size size = o.size.value_or(viewer::kDemoSize);
+  viewer::Panel panel;
+  const Size size = size_of(o, panel);
   viewer::Session session = session_of(demo, o, true);
+  session.draw(size, panel.width_px(size));
   double seconds = 0;
-  for (const viewer::Step& step : demo.steps) seconds += viewer::seconds_of(viewer::parse_keys(step.keys));
+  for (const viewer::Step& step : demo.steps)
+    for (const viewer::Stroke& stroke : viewer::parse_keys(step.keys)) seconds += viewer::seconds_of(stroke);
   int frame = 0;
-  const int scale = viewer::font_scale(size.height);
-  const viewer::Cell cell = viewer::font_cell(scale);
-  const auto write_next = [&](viewer::Screen& screen) {
+  const auto write_next = [&] {
     const OutputFile file = paths.file(std::string(demo.name), ++frame);
-    write_screen(file, screen, scale);
+    write_image(file.path, panel.show(session, size), file.format);
     progress.erase();
     print(listed({file.path.string()}) + "\n");
     progress.show(static_cast<double>(frame) / o.frames, demo.name);
   };
-  viewer::Film film(session, size, cell, seconds / o.frames, [&](viewer::Screen& screen) {
-    if (frame + 1 < o.frames) write_next(screen);
-  });
-  for (const viewer::Step& step : demo.steps) {
-    session.say(step.notice);
-    film.type(viewer::parse_keys(step.keys));
+  constexpr double kRounding_s = 1e-9;  // of sums of 0.1 s
+  const double frame_s = seconds / o.frames;
+  double to_next_s = frame_s;
+  const auto pass = [&](double stroke_s) {
+    for (; to_next_s <= stroke_s + kRounding_s; to_next_s = frame_s) {
+      session.advance(to_next_s);
+      stroke_s -= to_next_s;
+      if (frame + 1 < o.frames) write_next();
+    }
+    stroke_s = std::max(stroke_s, 0.0);
+    session.advance(stroke_s);
+    to_next_s -= stroke_s;
+  };
+  for (std::size_t i = 0; i < demo.steps.size(); ++i) {
+    session.show_step(i);
+    session.type(viewer::parse_keys(demo.steps[i].keys), pass);
   }
-  write_next(session.draw(size, cell));
+  write_next();
 }
 
 int write_all(const DemoOptions& o) {
@@ -220,9 +234,11 @@ int write_all(const DemoOptions& o) {
 
 int show(const viewer::Demo& demo, const DemoOptions& o, viewer::ShowWindow show_window) {
   if (!o.terminal) check_windows(show_window);
-  const Size size = o.size.value_or(viewer::kDemoSize);
+  viewer::Panel panel;
+  const Size size = size_of(o, panel);
   viewer::Session session = session_of(demo, o, false);
-  viewer::type(session, viewer::parse_keys("5"), size, viewer::font_cell(viewer::font_scale(size.height)));
+  session.draw(size, o.terminal ? 0 : panel.width_px(size));
+  session.take_step(0);
   if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
@@ -255,7 +271,7 @@ int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
 constexpr const char* kDemoFooter = R"(Examples:
   edgewise demo                                      list all tutorials
   edgewise demo p5js-clipping                        list its steps, with explanations and keys
-  edgewise demo p5js-clipping --view                 show it in a window; 5: next step, h: all keys
+  edgewise demo p5js-clipping --view                 show it in a window, with its steps in a panel
   edgewise demo p5js-clipping --view --terminal      show it in half-block characters, as over ssh
   edgewise demo p5js-clipping -o clipping.png        picture of the last step
   edgewise demo p5js-clipping -o film/ --frames 120  all steps (p5js-clipping-0001.png, ...)
@@ -311,7 +327,7 @@ Action add_demo(CLI::App& command, viewer::ShowWindow show_window) {
   command.add_flag("--view", o->view, "Show it in a window");
   command.add_flag("--terminal", o->terminal, "Show it in this terminal (needs true colour)");
   command.add_flag("--json", o->json, "Print all tutorials and their steps as JSON");
-  add_size(command, o->size, "Size of the window or pictures (960x540)");
+  add_size(command, o->size, "Size of the window or pictures (a picture of 960x540 and the panel)");
   o->execution.add_to(command);
   command.footer(kDemoFooter);
   return [o, show_window] { return demonstrate(*o, show_window); };

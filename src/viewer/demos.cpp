@@ -90,75 +90,61 @@ Scene ring_of_cubes() {
 }
 
 constexpr Step kCulling[] = {
-    {"k<wireframe>r<2>", "Wireframe: all twelve triangles of the cube, front and back."},
+    {"k<wireframe>r<2>",
+     "Wireframe: the edges of all twelve triangles of the cube are drawn, front and back."},
     {"2<2>",
-     "[2] Back faces culled: the faces left have vertices in clockwise order on the screen (y points down)."},
-    {"21<2>", "[1] Front faces culled instead: the far walls are left, seen from inside: a diorama."},
-    {"<tiled><2>", "[y] Filled: the cube is open towards the camera."},
+     "[2] culls back faces: the faces left have vertices in clockwise order on the screen (y is down)."},
+    {"21<2>", "[1] culls front faces instead: the far walls are left, seen from inside, as in a diorama."},
+    {"<tiled><2>", "[y] fills the triangles: the cube is open towards the camera."},
     {"v<tab>2<wireframe><1>r",
-     "Culling by the winding on the screen. Left: front faces culled, a diorama. Right: back faces culled, "
-     "edges of the faces left. [1] and [2] switch each culling, [tab] switches sides."},
+     "Left, front faces are culled (a diorama); right, back faces, and the edges of the others are drawn."},
 };
 
 constexpr Step kInsideTest[] = {
-    {"ok<float_le><2>",
-     "Each pixel of the bounding box is tested: inside, or on an edge (<= 0). Pixels on a shared edge are "
-     "drawn twice: double hits."},
+    {"k<float_le><2>",
+     "Inside test <= 0: two triangles draw the pixels on their shared edge, so the edge has double hits."},
     {"<float_lt><2>",
-     "Strictly inside (< 0): no triangle draws the pixels on a shared edge. They stay black: gaps."},
+     "Inside test < 0: no triangle draws the pixels on a shared edge, so they stay black: gaps."},
     {"v<tab>2<submission_order><2>",
-     "Right: no culling, no depth test. The last submitted face wins, so back faces occlude front faces."},
-    {"2<2>", "Right: [2] back faces culled. That suffices for one convex object."},
-    {"2<contract31><2>", "Right: [z] a depth buffer suffices for any scene; nothing is culled."},
+     "Right, without culling and depth test, the last submitted face wins: back faces occlude front faces."},
+    {"2<2>", "Right, [2] culls back faces, which suffices for one convex object."},
+    {"2<contract31><2>", "Right, [z] a depth buffer suffices for any scene, without culling."},
     {"<submission_order><tab><enter><enter><enter><enter><enter><enter><enter><enter><enter><enter><enter><"
      "2>",
-     "Left: a strict inside test (< 0) leaves gaps along shared edges. Right: no culling and no depth test, "
-     "so the last face wins. Culling [2] or a depth buffer [z] fixes it."},
+     "Left, the magnifier shows a gap of the strict test; right, the last face wins, whatever its depth."},
 };
 
 constexpr Step kClipping[] = {
     {"<screen_edges><painter_mean><2>",
-     "Triangles are clipped at the near plane, then at the four screen edges, and painted back to front by "
-     "their mean distance."},
-    {"6<2>", "[6] Outlines: white ones were clipped into several triangles."},
-    {"t<1>", "[t] Vertex numbers."},
-    {"wwwww<1>sssss<1>", "[w] Forwards, until objects cross the near plane, and back."},
+     "Triangles are clipped at the near plane and the screen edges, and painted back to front."},
+    {"6<2>", "[6] Outlines: clipping cut the white triangles into several pieces."},
+    {"t<1>", "[t] Each vertex shows its number."},
+    {"wwwww<1>sssss<1>", "[w] moves forwards, until objects cross the near plane, and [s] back."},
     {"m<space><space><space>dddaaa<shift><shift><shift><1>",
-     "[m] Now along the world's axes: space and shift move straight up and down."},
-    {"r<1.5>r", "[r] All objects rotate about one axis, (1, 1, 1)."},
-    {"0<1>",
-     "Clipped at the near plane and the four screen edges (white: into several pieces), painted back to "
-     "front. A face turned away from the light keeps 0.15 of its colour. [w a s d], space, shift and "
-     "dragging move the camera, [m] along its or the world's axes; [t] numbers the vertices."},
+     "[m] moves along the world's axes instead: space and shift go straight up and down."},
+    {"r<1.5>r", "[r] rotates all objects about one axis, (1, 1, 1)."},
+    {"0<1>", "[0] resets camera and rotation: a face turned away from the light keeps 0.15 of its colour."},
 };
 
 constexpr Step kBackface[] = {
     {"<normal_dot_eye><2>",
-     "A face is kept if the dot product of its world-space normal and the ray from the camera is negative; "
-     "that needs no projection. Objects entirely outside the view are culled whole."},
+     "A face is kept if its world-space normal and the ray from the camera have a negative dot product; "
+     "objects out of view are culled whole."},
     {"2<2>",
-     "[2] With back faces drawn, a second sheet appears on the left. It faces away from the camera. The "
-     "sheet on the right is two-sided and never culled by facing."},
+     "[2] draws back faces too: a second sheet appears, on the left, which faces away from the camera."},
     {"27<2>",
-     "[7] The state of each face: a letter at its centre, if that is on the screen, and a list with one "
-     "word per object. Capitals are two-sided."},
-    {"<left><2>",
-     "Back faces are culled by the dot product of world-space normal and camera ray; the grey sheet faces "
-     "away but is two-sided. Objects outside the view are culled whole, those across its border clipped: "
-     "[7] lists each face."},
+     "[7] shows the state of each face by a letter, a word per object in the panel; capitals: two-sided."},
+    {"<left><2>", "Objects out of view are culled whole; the sheet faces away, but it is two-sided."},
 };
 
 constexpr Step kTriad[] = {
     {"<normal_z>k<2>",
      "A quad is kept if the z of its normal, rotated with the object, points towards the camera."},
-    {"r<2>r", "[r] About half of the faces of a closed object face away at any time."},
+    {"r<2>r", "[r] rotates: about half of the faces of a closed object face away at any time."},
     {"0kv<tab>2<2>",
-     "Left: these faces are removed before projection, lighting and drawing. Right: the same picture with "
-     "all faces. A window also shows both times and the speed-up."},
+     "Left, these faces are dropped before projection; right, none are, and the picture is the same."},
     {"<wireframe><tab><wireframe>wwwwwwwwwwwwww<1>",
-     "From close by. Left: the edges of the remaining triangles (two per quad) after removing faces whose "
-     "normal's z points away. Right: the edges of all triangles, on the far side too. A window also shows "
-     "both times and the speed-up."},
+     "Left: edges of the triangles that are left, two per quad; right: of all, on the far side too."},
 };
 
 constexpr std::array kDemos{

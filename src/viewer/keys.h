@@ -28,59 +28,28 @@ constexpr Key key_of(char c) {
   return static_cast<Key>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
 }
 
+// clang-format off
 enum class Command : std::uint8_t {
   // Act while the key is held; the first six move, in the order of Session::move():
-  forwards,
-  backwards,
-  step_left,
-  step_right,
-  rise,
-  sink,
-  look_up,
-  look_down,
-  look_left,
-  look_right,
-  turn_back,
-  turn_on,
-  // Act once per key press:
-  axes,
-  slower,
-  faster,
-  home,
-  spin,
-  axis_of_sight,
-  freeze,
-  coverage,
-  edges,
-  clipping,
-  visibility,
-  facing,
-  cull_front,
-  cull_back,
-  light,
-  threads,
-  target,
-  switch_back,
-  errors,
-  truth,
-  magnifier,
-  next_error,
-  arrangement,
-  other_side,
-  labels,
-  face_states,
-  outlines,
-  overlay,
-  next_step,
-  help,
-  save,
-  quit,
+  forwards, backwards, step_left, step_right, rise, sink,
+  look_up, look_down, look_left, look_right, turn_back, turn_on,
+  // Act once per key press, and change the picture:
+  home, spin, axis_of_sight, freeze,
+  coverage, edges, clipping, visibility, facing, cull_front, cull_back, light, threads, target, switch_back,
+  errors, truth, arrangement, face_states, outlines,
+  // The same, without a change of the picture:
+  axes, slower, faster, magnifier, next_error, other_side, labels,
+  // The same, without a change of anything that a demo's next step depends on:
+  panel, previous_step, next_step, help, search, save, quit,
 };
+// clang-format on
 constexpr bool is_held(Command command) {
   return command <= Command::turn_on;
 }
 
 struct Binding {
+  constexpr Binding(Key k, Command c) : key(k), command(c) {}
+  constexpr Binding(char k, Command c) : key(key_of(k)), command(c) {}
   Key key;
   Command command;
 };
@@ -101,5 +70,6 @@ struct Named {
 };
 using Stroke = std::variant<Key, double, Named>;
 std::vector<Stroke> parse_keys(std::string_view text);
+double seconds_of(const Stroke& stroke);  // 0.1 s for a key or method, or the time to wait
 
 }  // namespace edgewise::viewer

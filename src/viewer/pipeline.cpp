@@ -1,7 +1,8 @@
 #include "viewer/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "edgewise/contract.h"
@@ -12,7 +13,7 @@
 #include "lab/measure.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
-#include "viewer/inset.h"
+#include "viewer/annotations.h"
 
 namespace edgewise::viewer {
 
@@ -87,9 +88,10 @@ std::vector<std::uint32_t> visible_ids_in(const Framebuffer& frame) {
 
 }  // namespace
 
-std::string_view name_of(Truth truth) {
-  constexpr std::array<std::string_view, 3> kNames{"contract", "snapped", "floats"};
-  return kNames[static_cast<std::size_t>(truth)];
+std::string errors_of(const Judgement& judgement) {
+  std::string text = fmt::format("{} wrong of {} covered pixels", judgement.wrong, judgement.covered);
+  if (!judgement.gaps) return text;
+  return text + fmt::format(", gaps: {}, double hits: {}", *judgement.gaps, *judgement.double_hits);
 }
 
 Backend& Pipeline::backend(std::string_view name) {

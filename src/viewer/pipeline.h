@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,7 +39,6 @@ struct Picture {
 // exact picture (lab/clipping/truth.h), which replaces them where they differ by more than 1/64 px.
 enum class Truth { contract, snapped, floats };
 inline constexpr Truth kTruths[] = {Truth::contract, Truth::snapped, Truth::floats};
-std::string_view name_of(Truth truth);
 
 struct Judgement {
   std::uint64_t covered = 0;  // pixels where the reference shows a triangle
@@ -48,6 +48,8 @@ struct Judgement {
   std::optional<std::uint64_t> gaps, double_hits;
   std::vector<lab::Mark> marks;  // row by row
 };
+// "12 wrong of 3456 covered pixels, gaps: 2, double hits: 1"
+std::string errors_of(const Judgement& judgement);
 
 // Reuses its buffers between frames.
 class Pipeline {

@@ -1,6 +1,7 @@
-// The SDL window: passes events to the session and shows its pictures.
+// The SDL window: passes events to the panel or the session, and shows their pictures.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "edgewise/contract.h"
+#include "viewer/panel.h"
 #include "viewer/sdl_library.h"
 #include "viewer/session.h"
 #include "viewer/window.h"
@@ -87,17 +89,24 @@ class Window {
     sdl().SetWindowMinimumSize(window_.get(), 64, 48);
   }
 
-  void show(Session& session) {
+  // The height of legible text on the window's display.
+  int font_px() const {
+    constexpr float kUsual_dpi = 96.0f;
+    float dpi = 0.0f;
+    const int display = sdl().GetWindowDisplayIndex(window_.get());
+    if (display < 0 || sdl().GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0) return Panel::kFont_px;
+    return std::max(static_cast<int>(std::lround(Panel::kFont_px * dpi / kUsual_dpi)), Panel::kFont_px);
+  }
+
+  void show(Session& session, Panel& panel) {
     SDL_Surface* const surface = sdl().GetWindowSurface(window_.get());
     if (surface == nullptr) fail("cannot draw into the window");
     const tools::Size size{std::clamp(surface->w, 1, contract::kMaxImageSide),
                            std::clamp(surface->h, 1, contract::kMaxImageSide)};
-    const int scale = font_scale(size.height);
-    Screen& screen = session.draw(size, font_cell(scale));
-    paint(screen, scale);
+    const Image& image = panel.show(session, size);
     const std::unique_ptr<SDL_Surface, decltype(&SDL_FreeSurface)> picture(
-        sdl().CreateRGBSurfaceWithFormatFrom(screen.picture.pixels.data(), size.width, size.height, 32,
-                                             size.width * 4, SDL_PIXELFORMAT_ABGR8888),
+        sdl().CreateRGBSurfaceWithFormatFrom(const_cast<std::uint32_t*>(image.pixels.data()), size.width,
+                                             size.height, 32, size.width * 4, SDL_PIXELFORMAT_ABGR8888),
         sdl().FreeSurface);
     if (!picture) fail("cannot draw into the window");
     sdl().SetSurfaceBlendMode(picture.get(), SDL_BLENDMODE_NONE);
@@ -110,20 +119,37 @@ class Window {
   std::unique_ptr<SDL_Window, decltype(&SDL_DestroyWindow)> window_;
 };
 
-// Passes an event to the session. False if the window is to close.
-bool handle(const SDL_Event& event, Session& session) {
+// Passes an event to the panel, or else to the session. False if the window is to close.
+bool handle(const SDL_Event& event, Panel& panel, Session& session) {
+  const auto point = [&](Pixel to, bool held) {
+    if (!panel.point(to, held)) session.point(to, held);
+  };
   switch (event.type) {
     case SDL_QUIT:
       return false;
     case SDL_KEYDOWN:
       if (event.key.repeat == 0)
-        if (const auto key = key_of(event.key.keysym)) session.press(*key);
+        if (const auto key = key_of(event.key.keysym); key && !panel.press(*key)) session.press(*key);
       break;
     case SDL_KEYUP:
-      if (const auto key = key_of(event.key.keysym)) session.release(*key);
+      if (const auto key = key_of(event.key.keysym)) {
+        panel.release(*key);
+        session.release(*key);
+      }
+      break;
+    case SDL_TEXTINPUT:
+      panel.type(event.text.text);
       break;
     case SDL_MOUSEMOTION:
-      session.point({event.motion.x, event.motion.y}, (event.motion.state & SDL_BUTTON_LMASK) != 0);
+      point({event.motion.x, event.motion.y}, (event.motion.state & SDL_BUTTON_LMASK) != 0);
+      break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+      if (event.button.button == SDL_BUTTON_LEFT)
+        point({event.button.x, event.button.y}, event.type == SDL_MOUSEBUTTONDOWN);
+      break;
+    case SDL_MOUSEWHEEL:
+      panel.scroll(static_cast<float>(event.wheel.y));
       break;
     case SDL_WINDOWEVENT:
       if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) session.release_all();
@@ -139,15 +165,16 @@ bool handle(const SDL_Event& event, Session& session) {
 void show_sdl_window(Session& session, const WindowOptions& options) {
   const Sdl started;
   Window window(options);
+  Panel panel(window.font_px());
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
     if (session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - last).count();
     last = now;
-    for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, session);
+    for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, panel, session);
     session.advance(std::min(passed, kLongestStep_s));
-    window.show(session);
+    window.show(session, panel);
     if (const auto left = kFrame - (Clock::now() - now); left.count() > 0)
       sdl().Delay(static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }

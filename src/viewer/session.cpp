@@ -15,7 +15,6 @@
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
 #include "support/printable.h"
-#include "viewer/typing.h"
 
 namespace edgewise::viewer {
 
@@ -28,23 +27,7 @@ constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
 constexpr double kBudget_ms = 10.0, kDecay = 0.995;
 
 constexpr bool changes_picture(Command command) {
-  switch (command) {
-    case Command::axes:
-    case Command::slower:
-    case Command::faster:
-    case Command::magnifier:
-    case Command::next_error:
-    case Command::other_side:
-    case Command::labels:
-    case Command::overlay:
-    case Command::next_step:  // its keys change the picture themselves
-    case Command::help:
-    case Command::save:
-    case Command::quit:
-      return false;
-    default:
-      return true;
-  }
+  return command < Command::axes;
 }
 
 // The entry `step` places after the current one, cyclically.
@@ -76,22 +59,12 @@ void switch_edges(Side& side) {
 
 // Whether a demo's next step can follow the command without a replay of the earlier steps.
 constexpr bool keeps_demo_state(Command command) {
-  return command == Command::next_step || command == Command::help || command == Command::save ||
-         command == Command::quit;
+  return command >= Command::panel;
 }
 
 template <typename Enum>
 Enum next_of_three(Enum value) {
   return static_cast<Enum>((static_cast<int>(value) + 1) % 3);
-}
-
-// 1, 2, 4, … and the number of usable cores.
-std::vector<int> thread_counts() {
-  const int cores = tools::default_threads();
-  std::vector<int> counts;
-  for (int n = 1; n < cores; n *= 2) counts.push_back(n);
-  counts.push_back(cores);
-  return counts;
 }
 
 // Updates an exponential moving average; 0 means that there is no value yet.
@@ -101,6 +74,14 @@ void update_mean(double now, double& mean) {
 }
 
 }  // namespace
+
+std::vector<int> thread_counts() {
+  const int cores = tools::default_threads();
+  std::vector<int> counts;
+  for (int n = 1; n < cores; n *= 2) counts.push_back(n);
+  counts.push_back(cores);
+  return counts;
+}
 
 Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
@@ -128,17 +109,31 @@ void Session::release_all() {
   held_.clear();
 }
 
+void Session::type(std::span<const Stroke> strokes, const std::function<void(double)>& pass) {
+  for (const Stroke& stroke : strokes) {
+    const Key* const key = std::get_if<Key>(&stroke);
+    if (key != nullptr) press(*key);
+    if (const Named* const named = std::get_if<Named>(&stroke)) choose(named->method);
+    if (pass)
+      pass(seconds_of(stroke));
+    else
+      advance(seconds_of(stroke));
+    if (key != nullptr) release(*key);
+    draw(window_, panel_width_px_);
+  }
+}
+
 void Session::point(Pixel to, bool held) {
-  if (held && pointer_ && !state_.stream && panel_.height > 0) {
+  if (held && pointer_ && !state_.stream && side_size_.height > 0) {
     demo_left_ = true;
     // The centre of the picture follows the pointer.
-    const float per_px = world_->scene()->camera.fov_y / static_cast<float>(panel_.height);
+    const float per_px = world_->scene()->camera.fov_y / static_cast<float>(side_size_.height);
     look(world_->camera(), per_px * static_cast<float>(pointer_->x - to.x),
          per_px * static_cast<float>(pointer_->y - to.y));
     ++state_.version;
   }
   pointer_ = to;
-  focus_ = Pixel{panel_.width > 0 ? to.x % panel_.width : 0, to.y};
+  focus_ = Pixel{side_size_.width > 0 ? to.x % side_size_.width : 0, to.y};
 }
 
 bool Session::still() const {
@@ -187,10 +182,10 @@ void Session::act(Command command) {
   state_.message.clear();
   if (changes_picture(command)) ++state_.version;
   constexpr std::pair<Command, bool State::*> kToggles[] = {
-      {Command::axes, &State::along_view},  {Command::spin, &State::spinning},
-      {Command::freeze, &State::frozen},    {Command::magnifier, &State::magnifier},
-      {Command::labels, &State::labels},    {Command::face_states, &State::face_states},
-      {Command::outlines, &State::outlines}};
+      {Command::axes, &State::along_view},   {Command::spin, &State::spinning},
+      {Command::freeze, &State::frozen},     {Command::magnifier, &State::magnifier},
+      {Command::labels, &State::labels},     {Command::face_states, &State::face_states},
+      {Command::outlines, &State::outlines}, {Command::panel, &State::panel}};
   for (const auto& [toggle, flag] : kToggles)
     if (command == toggle) {
       state_.*flag = !(state_.*flag);
@@ -236,14 +231,19 @@ void Session::act(Command command) {
       else
         state_.active = 1 - state_.active;
       break;
-    case Command::overlay:
-      state_.overlay = next_of_three(state_.shown_overlay);
+    case Command::previous_step:
+      take_step(state_.step - 2);
       break;
     case Command::next_step:
-      next_step();
+      take_step(state_.step);
       break;
     case Command::help:
-      ++state_.help_page;  // add_overlay() resets it after the last page
+      state_.help = !state_.help;
+      state_.panel |= state_.help;
+      break;
+    case Command::search:
+      state_.help = state_.panel = true;
+      ++state_.searches;
       break;
     case Command::save:
       save_next_ = true;
@@ -314,31 +314,29 @@ void Session::reset_times() {
   cold_ = true;
 }
 
-// Takes a step without animation: timed keys, such as walking, act as a jump. The keys of a step assume the
-// state after the previous one, so if the user has changed that state, all earlier steps are replayed from
-// the start.
-void Session::next_step() {
-  if (next_step_ == start_.steps.size()) {
-    state_.message = start_.steps.empty() ? "only demos have steps" : "that was the last step";
+// The keys of a step assume the state after the previous one. If that is not the state, all earlier steps are
+// taken again from the start.
+void Session::take_step(std::size_t step) {
+  if (step >= start_.steps.size()) {
+    state_.message = start_.steps.empty() ? "only demos have steps" : "there is no further step";
     return;
   }
-  const auto take_step = [this](const Step& step, tools::Size size, Cell cell) {
-    say(step.notice);
-    type(*this, parse_keys(step.keys), size, cell);
-  };
-  const std::size_t step = next_step_;
-  const tools::Size size = size_;
-  const Cell cell = cell_;
-  if (demo_left_) {
+  std::size_t from = step;
+  if (demo_left_ || state_.step != step) {
     Session fresh{Start(start_)};
     fresh.saved_ = std::move(saved_);
     fresh.save_next_ = save_next_;
     fresh.done_ = done_;
+    fresh.state_.panel = state_.panel;
+    fresh.state_.searches = state_.searches;
+    fresh.draw(window_, panel_width_px_);
     *this = std::move(fresh);
-    for (std::size_t i = 0; i < step; ++i) take_step(start_.steps[i], size, cell);
+    from = 0;
   }
-  take_step(start_.steps[step], size, cell);
-  next_step_ = step + 1;
+  for (; from <= step; ++from) {
+    show_step(from);
+    type(parse_keys(start_.steps[from].keys));
+  }
   demo_left_ = false;
 }
 
@@ -373,8 +371,10 @@ View Session::view_of(std::size_t i, tools::Size size) const {
   return view;
 }
 
-Screen& Session::draw(tools::Size size, Cell cell) {
-  cell_ = cell;
+const Screen& Session::draw(tools::Size window, int panel_width_px) {
+  window_ = window;
+  panel_width_px_ = panel_width_px;
+  const tools::Size size{window.width - (state_.panel ? panel_width_px : 0), window.height};
   if (size.width != size_.width || size.height != size_.height) {
     load(size);
     size_ = size;
@@ -387,39 +387,45 @@ Screen& Session::draw(tools::Size size, Cell cell) {
     reset_times();
   }
   cold_ = false;
-  update_mean(tools::milliseconds([&] { draw_picture(); }), state_.frame_ms);
+  state_.last_frame_ms = tools::milliseconds([&] { draw_picture(); });
+  update_mean(state_.last_frame_ms, state_.frame_ms);
   if (save_next_) save();
-  state_.shown_overlay = state_.overlay.value_or(overlay_that_fits(size, cell));
-  state_.help_page = add_overlay(*this, panel_, cell, screen_);
+  add_labels();
   return screen_;
 }
 
 void Session::draw_picture() {
   double work_ms = 0;
   const bool halves = state_.arrangement == Arrangement::side_by_side && size_.width > 1;
-  panel_ = {halves ? size_.width / 2 : size_.width, size_.height};
-  screen_.texts.clear();
-  Image first = draw_side(0, panel_, work_ms);
+  side_size_ = {halves ? size_.width / 2 : size_.width, size_.height};
+  Image first = draw_side(0, side_size_, work_ms);
   if (state_.arrangement == Arrangement::one) {
-    finish(first, 0);
     screen_.picture = std::move(first);
+    return;
+  }
+  Image second = draw_side(1, side_size_, work_ms);
+  if (halves) {
+    screen_.picture = {size_.width, size_.height, {}};
+    screen_.picture.pixels.resize(static_cast<std::size_t>(size_.width) *
+                                  static_cast<std::size_t>(size_.height));
+    paste(first, 0, 0, screen_.picture);
+    paste(second, left_of(1), 0, screen_.picture);
   } else {
-    Image second = draw_side(1, panel_, work_ms);
-    if (halves) {
-      finish(first, 0), finish(second, 1);
-      screen_.picture = {size_.width, size_.height, {}};
-      screen_.picture.pixels.resize(static_cast<std::size_t>(size_.width) *
-                                    static_cast<std::size_t>(size_.height));
-      paste(first, 0, 0, screen_.picture);
-      paste(second, size_.width - panel_.width, 0, screen_.picture);
-    } else {
-      Difference both = difference(first, second);
-      state_.differing = both.count;
-      first_difference_ = {both.first_x, both.first_y};
-      screen_.picture = std::move(both.picture);
-      if (state_.magnifier)
-        magnify(screen_.picture, focus_.value_or(Pixel{size_.width / 2, size_.height / 2}));
-    }
+    Difference both = difference(first, second);
+    state_.differing = both.count;
+    first_difference_ = {both.first_x, both.first_y};
+    screen_.picture = std::move(both.picture);
+  }
+}
+
+void Session::add_labels() {
+  screen_.labels.clear();
+  const Scene* const scene = world_->scene();
+  if (state_.arrangement == Arrangement::difference || scene == nullptr) return;
+  for (std::size_t i = 0; i < side_count(); ++i) {
+    const Strip strip{left_of(i), side_size_.width, side_size_.height};
+    if (state_.labels) add_vertex_labels(*scene, strip, screen_.labels);
+    if (state_.face_states) add_face_letters(scene->camera, sides_[i].faces, strip, screen_.labels);
   }
 }
 
@@ -440,6 +446,8 @@ Image Session::draw_side(std::size_t i, tools::Size size, double& work_ms) {
     if (choice.our_clipping()) side.faces = face_states(*world_->scene(), pipelines_[i].states(choice, view));
     side.faces_of = state_.version;
   }
+  const bool tinted = state_.errors == Errors::tint && state_.arrangement != Arrangement::difference;
+  if (tinted && side.judgement) tint(picture.image, side.judgement->marks);
   return std::move(picture.image);
 }
 
@@ -455,13 +463,8 @@ void Session::judge_if_due(std::size_t i, const lab::Choice& choice, const View&
   side.judging_ms =
       tools::milliseconds([&] { side.judgement = pipelines_[i].judge(choice, view, state_.truth); });
   side.judged = state_.version;
-}
-
-// Draws tinted errors and the magnifier over one side's picture.
-void Session::finish(Image& panel, std::size_t i) {
-  const Side& side = sides_[i];
-  if (state_.errors == Errors::tint && side.judgement) tint(panel, side.judgement->marks);
-  if (state_.magnifier) magnify(panel, focus_.value_or(Pixel{panel.width / 2, panel.height / 2}));
+  side.marked = {};
+  for (const lab::Mark mark : side.judgement->marks) ++side.marked[static_cast<std::size_t>(mark)];
 }
 
 void Session::show_next_error() {
@@ -483,7 +486,7 @@ void Session::show_next_error() {
     return;
   }
   const std::vector<lab::Mark>& marks = judgement->marks;
-  const std::size_t width = static_cast<std::size_t>(panel_.width);
+  const std::size_t width = static_cast<std::size_t>(side_size_.width);
   const Pixel from = focus_.value_or(Pixel{-1, 0});
   const std::size_t start =
       static_cast<std::size_t>(std::max(from.y, 0)) * width + static_cast<std::size_t>(from.x + 1);
@@ -507,18 +510,14 @@ void Session::save() {
     while (std::filesystem::exists(path(n, ".png")) || std::filesystem::exists(path(n, ".tri"))) ++n;
     write_image(path(n, ".png"), screen_.picture);
     AtomicFile stream(path(n, ".tri"));
-    write_tri(stream.stream(),
-              lab::to_stream(pipelines_[state_.active].screen_triangles(), panel_.width, panel_.height));
+    write_tri(stream.stream(), lab::to_stream(pipelines_[state_.active].screen_triangles(), side_size_.width,
+                                              side_size_.height));
     stream.commit();
     for (const char* extension : {".png", ".tri"}) saved_.push_back(path(n, extension).string());
     state_.message = fmt::format("saved {} and .tri", tools::printable(path(n, ".png").string()));
   } catch (const std::exception& error) {
     state_.message = fmt::format("not saved: {}", tools::printable(error.what()));
   }
-}
-
-std::size_t Session::vertex_count() const {
-  return world_->scene() == nullptr ? 0 : viewer::vertex_count(*world_->scene());
 }
 
 std::vector<std::string> Session::take_saved() {

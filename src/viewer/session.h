@@ -1,5 +1,5 @@
-// The viewer without a window: its state, its commands, and the screens to show. A window or a terminal
-// passes events and elapsed time to the session, and shows its screens.
+// The viewer without a window: its state, its commands, and the pictures to show. The panel, a window or a
+// terminal passes events and elapsed time to the session, and shows its pictures.
 #pragma once
 
 #include <array>
@@ -13,16 +13,14 @@
 #include <vector>
 
 #include "support/options.h"
-#include "viewer/inset.h"
+#include "viewer/annotations.h"
 #include "viewer/keys.h"
-#include "viewer/overlay.h"
 #include "viewer/pipeline.h"
-#include "viewer/text.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {
 
-// A step of a demo: keys to press after the previous step, as in --keys, and a text on what to notice.
+// A step of a demo: keys to press after the previous step, as in --keys, and a sentence on what to notice.
 struct Step {
   std::string_view keys, notice;
 };
@@ -55,6 +53,7 @@ struct Side {
   std::vector<FaceState> faces;           // if shown and known
   std::uint64_t faces_of = 0;             // State::version of `faces`
   std::optional<Judgement> judgement;     // none: this choice is not judged yet
+  std::array<std::uint64_t, 5> marked{};  // pixels of the judgement, by lab::Mark
   double judging_ms = 0;                  // expected time of a judgement
   std::uint64_t judged = 0;               // State::version of `judgement`
 };
@@ -72,18 +71,21 @@ struct State {
   Errors errors = Errors::count;
   Truth truth = Truth::contract;
   Arrangement arrangement = Arrangement::one;
-  std::optional<Overlay> overlay;         // none: chosen by the screen's size
-  Overlay shown_overlay = Overlay::full;  // in the last frame
-  std::size_t active = 0;                 // the side that keys change
+  std::size_t active = 0;  // the side that keys change
   bool magnifier = false, labels = false, face_states = false, outlines = false;
-  int help_page = 0;            // from 1; 0: none
+  bool panel = true, help = false;
+  std::uint64_t searches = 0;   // how often the search of the help was called
   std::uint64_t differing = 0;  // pixels, in the difference of both sides
   double frame_ms = 0;          // moving average
-  std::uint64_t version = 1;    // of the picture; changes with everything that the picture depends on
+  double last_frame_ms = 0;
+  std::uint64_t version = 1;  // of the picture; changes with everything that the picture depends on
   std::string message;
-  std::string notice;  // a demo's text on what to notice
+  std::size_t step = 0;  // of a demo: how many steps were taken
   bool reproducible = false;
 };
+
+// The numbers of threads to choose from: 1, 2, 4, … and the number of usable cores.
+std::vector<int> thread_counts();
 
 class Session {
  public:
@@ -94,22 +96,38 @@ class Session {
   void release_all();
   // Selects a method for its stage on the active side. Throws std::invalid_argument for an unknown name.
   void choose(std::string_view method);
-  // Shows a text on what to notice.
-  void say(std::string_view notice) { state_.notice = notice; }
-  // The pointer moved to a screen position, with the button held or not.
+  // Types strokes into a session that has been drawn, and draws after each, because some keys depend on the
+  // last frame. `pass` calls advance() for a stroke's time; null: once for all of it.
+  void type(std::span<const Stroke> strokes, const std::function<void(double)>& pass = nullptr);
+  // Takes a demo's step, counted from 0, or says that there is none. Walking, for example, is a jump.
+  void take_step(std::size_t step);
+  // Shows a step as taken, without its keys.
+  void show_step(std::size_t step) { state_.step = step + 1; }
+  // The pointer moved to a position in the picture, with the button held or not.
   void point(Pixel to, bool held);
   // Advances movement and rotation by this time.
   void advance(double seconds);
-  // Draws a frame; the caller may paint into the returned screen. Throws what loading and drawing throw.
-  Screen& draw(tools::Size size, Cell cell);
+  // Draws the picture, which fills `size`, less the panel's width at the right while the panel is shown.
+  // Throws what loading and drawing throw.
+  const Screen& draw(tools::Size size, int panel_width_px = 0);
 
   bool done() const { return done_; }
   // Whether nothing changes until the next event.
   bool still() const;
   const State& state() const { return state_; }
   const Side& side(std::size_t i) const { return sides_[i]; }
+  std::size_t side_count() const { return state_.arrangement == Arrangement::one ? 1 : 2; }
+  const Image& picture() const { return screen_.picture; }  // the last one
+  tools::Size side_size() const { return side_size_; }      // of one side's picture
+  int left_of(std::size_t side) const { return side == 0 ? 0 : screen_.picture.width - side_size_.width; }
+  // What the magnifier shows, in one side's picture.
+  Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }
+  // The front end's output for the last picture of a side.
+  std::span<const ScreenTriangle> triangles(std::size_t side) const {
+    return pipelines_[side].screen_triangles();
+  }
+  std::span<const Step> steps() const { return start_.steps; }
   const World& world() const { return *world_; }
-  std::size_t vertex_count() const;  // of all objects
   // The names of the files saved since the last take_saved().
   const std::vector<std::string>& saved() const { return saved_; }
   std::vector<std::string> take_saved();
@@ -123,10 +141,9 @@ class Session {
   View view_of(std::size_t side, tools::Size size) const;
   Image draw_side(std::size_t side, tools::Size size, double& work_ms);
   void judge_if_due(std::size_t side, const lab::Choice& choice, const View& view, double work_ms);
-  void finish(Image& panel, std::size_t side);
+  void add_labels();
   void reset_times();
   void show_next_error();
-  void next_step();
   void save();
 
   Start start_;
@@ -136,9 +153,8 @@ class Session {
   std::optional<World> world_;
   FrontendOptions frontend_;
   bool fills_its_size_ = false;
-  tools::Size size_{0, 0}, panel_{0, 0};
-  Cell cell_{1, 1};
-  std::size_t next_step_ = 0;
+  tools::Size window_{0, 0}, size_{0, 0}, side_size_{0, 0};  // with the panel; of the picture; of one side
+  int panel_width_px_ = 0;
   bool demo_left_ = false;  // the user changed the state since the demo's last step
   std::set<Key> held_;
   std::optional<Command> last_switch_;

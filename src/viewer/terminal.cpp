@@ -4,6 +4,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -81,10 +83,25 @@ class RawTerminal {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0)
       size.ws_col = 80, size.ws_row = 24;
+    // The last row shows the status.
     return {std::min<int>(size.ws_col, contract::kMaxImageSide),
-            std::min<int>(size.ws_row * 2, contract::kMaxImageSide)};
+            std::clamp<int>(size.ws_row * 2 - 2, 1, contract::kMaxImageSide)};
   }
 };
+
+// One line: the message, or the demo's step, or methods, errors and times.
+std::string status_of(const Session& session) {
+  const State& state = session.state();
+  if (!state.message.empty()) return state.message;
+  if (state.help) return "`edgewise view --help` lists all keys";
+  if (state.step > 0)
+    return fmt::format("{}/{} {}", state.step, session.steps().size(),
+                       session.steps()[state.step - 1].notice);
+  const Side& side = session.side(state.active);
+  const bool counted = side.judgement && state.errors != Errors::off;
+  return fmt::format("{}, {}{:.1f} ms  [h] help", describe(side.choice),
+                     counted ? errors_of(*side.judgement) + ", " : "", state.frame_ms);
+}
 
 class Loop {
  public:
@@ -96,7 +113,8 @@ class Loop {
       const Clock::time_point now = Clock::now();
       session_.advance(std::chrono::duration<double>(std::min<Clock::duration>(now - last, kIdle)).count());
       last = now;
-      if (!put(picture_.show(session_.draw(terminal_.size_px(), kTerminalCell)))) return;
+      const Screen& screen = session_.draw(terminal_.size_px());
+      if (!put(picture_.show(screen, status_of(session_)))) return;
       const bool busy = !session_.still();
       const auto until = now + (busy ? kFrame : kIdle);
       // Any event ends the pause, because it may change the picture.

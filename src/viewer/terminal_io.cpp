@@ -85,12 +85,8 @@ std::vector<TerminalEvent> TerminalInput::settle() {
 
 namespace {
 
-constexpr std::uint32_t kBlack = 0xFF000000u;
+constexpr std::uint32_t kBlack = rgb(0, 0, 0), kStatus = rgb(225, 225, 225);
 constexpr const char* kUpperHalf = "\xe2\x96\x80";
-
-std::uint32_t mean(std::uint32_t a, std::uint32_t b) {
-  return (a & b) + (((a ^ b) >> 1) & 0x7F7F7F7Fu);
-}
 
 void append_colour(std::string& out, int ground, std::uint32_t colour) {
   fmt::format_to(std::back_inserter(out), "\x1b[{};2;{};{};{}m", ground, colour & 255, colour >> 8 & 255,
@@ -99,11 +95,11 @@ void append_colour(std::string& out, int ground, std::uint32_t colour) {
 
 }  // namespace
 
-std::string TerminalPicture::show(const Screen& screen) {
+std::string TerminalPicture::show(const Screen& screen, std::string_view status) {
   const Image& image = screen.picture;
   const int columns = image.width, rows = (image.height + 1) / 2;
   std::vector<Character> now;
-  now.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  now.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows + 1));
   const auto pixel = [&](int x, int y) {
     if (y >= image.height) return kBlack;
     return image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
@@ -115,16 +111,19 @@ std::string TerminalPicture::show(const Screen& screen) {
       // A space is shorter if both pixels have the same colour.
       now.push_back(upper == lower ? Character{' ', lower, lower} : Character{0, upper, lower});
     }
-  for (const Text& text : screen.texts) {
-    const int row = text.y / 2;
-    if (text.y < 0 || row >= rows) continue;
-    for (std::size_t i = 0; i < text.words.size(); ++i) {
-      const int x = text.x + static_cast<int>(i);
+  for (const Label& label : screen.labels) {
+    const int row = label.y / 2;
+    for (std::size_t i = 0; i < label.words.size(); ++i) {
+      const int x = label.x - static_cast<int>(label.words.size()) / 2 + static_cast<int>(i);
       if (x < 0 || x >= columns) continue;
       Character& c = now[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                          static_cast<std::size_t>(x)];
-      c = {text.words[i], text.colour, darkened(mean(pixel(x, 2 * row), pixel(x, 2 * row + 1)))};
+      c = {label.words[i], label.colour, kBlack};
     }
+  }
+  for (std::size_t x = 0; x < static_cast<std::size_t>(columns); ++x) {
+    const char letter = x < status.size() ? status[x] : ' ';
+    now.push_back({letter >= ' ' && letter <= '~' ? letter : '?', kStatus, kBlack});
   }
 
   const bool all = columns != columns_ || now.size() != shown_.size();

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "viewer/annotations.h"
 #include "viewer/keys.h"
-#include "viewer/text.h"
 
 namespace edgewise::viewer {
 
@@ -31,13 +31,11 @@ class TerminalInput {
 };
 
 // Shows a screen as half-block characters: each shows two pixels, one above the other, in true colour.
-inline constexpr Cell kTerminalCell{1, 2};
-
 class TerminalPicture {
  public:
-  // Returns the bytes that change the last screen into this one. The first time and after a change of size,
-  // they redraw everything.
-  std::string show(const Screen& screen);
+  // Returns the bytes that change the last screen and the line below it into these. The first time and after
+  // a change of size, they redraw everything.
+  std::string show(const Screen& screen, std::string_view status);
 
  private:
   struct Character {

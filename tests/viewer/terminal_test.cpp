@@ -60,26 +60,28 @@ TEST(TerminalInput, ReadsMouseEvents) {
   EXPECT_FALSE(at(3).held);  // the mouse wheel
 }
 
-TEST(TerminalPicture, ShowsTwoPixelsInEachCharacterAndTextOverThem) {
+TEST(TerminalPicture, ShowsTwoPixelsInEachCharacterLabelsOverThemAndAStatusBelow) {
   TerminalPicture picture;
   Screen screen{{2, 4, {rgb(1, 2, 3), rgb(4, 5, 6), rgb(7, 8, 9), rgb(4, 5, 6), 0, 0, 0, 0}}, {}};
-  screen.texts.push_back({1, 2, "Q?", rgb(250, 251, 252)});
-  const std::string bytes = picture.show(screen);
+  screen.labels.push_back({2, 2, "Q?", rgb(250, 251, 252)});
+  const std::string bytes = picture.show(screen, "status");
   EXPECT_NE(bytes.find("\x1b[38;2;1;2;3m\x1b[48;2;7;8;9m\xe2\x96\x80"), std::string::npos) << bytes;
   EXPECT_NE(bytes.find("\x1b[48;2;4;5;6m "), std::string::npos) << bytes;
   EXPECT_NE(bytes.find("Q"), std::string::npos);
   EXPECT_EQ(bytes.find("?"), std::string::npos);  // beyond the right border
+  EXPECT_NE(bytes.find("\x1b[3;1H"), std::string::npos);
+  EXPECT_TRUE(bytes.ends_with("st")) << bytes;
 }
 
 TEST(TerminalPicture, SendsOnlyChangedCells) {
   TerminalPicture picture;
   Screen screen{{40, 20, std::vector<std::uint32_t>(800, rgb(9, 9, 9))}, {}};
-  EXPECT_NE(picture.show(screen).find("\x1b[2J"), std::string::npos);
-  EXPECT_EQ(picture.show(screen), "");
+  EXPECT_NE(picture.show(screen, "").find("\x1b[2J"), std::string::npos);
+  EXPECT_EQ(picture.show(screen, ""), "");
   screen.picture.pixels[45] = rgb(200, 9, 9);
-  EXPECT_EQ(picture.show(screen), "\x1b[1;6H\x1b[38;2;9;9;9m\x1b[48;2;200;9;9m\xe2\x96\x80");
+  EXPECT_EQ(picture.show(screen, ""), "\x1b[1;6H\x1b[38;2;9;9;9m\x1b[48;2;200;9;9m\xe2\x96\x80");
   screen.picture = {20, 40, std::vector<std::uint32_t>(800, rgb(9, 9, 9))};
-  EXPECT_NE(picture.show(screen).find("\x1b[2J"), std::string::npos);
+  EXPECT_NE(picture.show(screen, "").find("\x1b[2J"), std::string::npos);
 }
 
 }  // namespace

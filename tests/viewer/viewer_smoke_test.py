@@ -91,7 +91,7 @@ class Viewer(unittest.TestCase):
 
 
 class Window(Viewer):
-    SIZE = "640x400"
+    SIZE, PICTURE_WIDTH = "900x600", 500  # narrower than the picture beside the panel
 
     def setUp(self):
         super().setUp()
@@ -105,7 +105,7 @@ class Window(Viewer):
         self.environment = {**os.environ, "DISPLAY": self.screen.display, "SDL_VIDEODRIVER": "x11",
                             "LSAN_OPTIONS": f"suppressions={known_leaks}:print_suppressions=0"}
         self.program = subprocess.Popen(
-            [EDGEWISE, "view", "cube", "--keys", "oo", "--save-to", self.saved, "--size", self.SIZE],
+            [EDGEWISE, "view", "cube", "--keys", "o", "--save-to", self.saved, "--size", self.SIZE],
             env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.stop)
         self.window = self.xdo("search", "--sync", "--onlyvisible", "--name", "edgewise: cube").split()[0]
@@ -133,38 +133,37 @@ class Window(Viewer):
         return expected
 
     def test_keys_mouse_sizes_and_files(self):
-        # The key o hides the overlay and its times, which differ: two presses hide the full overlay of this size, one
-        # hides the brief overlay of a small screen.
-        home = self.expect("oo")
+        # The key o hides the panel and its times, which differ. The help has none.
+        home = self.expect("o")
         self.xdo("key", "1", "2")
-        self.assertNotEqual(self.expect("oo12"), home)
+        self.assertNotEqual(self.expect("o12"), home)
         self.xdo("key", "2", "1", "h")
-        self.expect("ooh")
-        self.xdo("key", "h")
-        self.expect("oo")
+        self.expect("h")
+        self.xdo("key", "h", "o")
+        self.expect("o")
         self.xdo("key", "v", "Tab")
         self.xdo("key", "z", "BackSpace", "BackSpace")
-        self.expect("oov<tab>z<backspace><backspace>")
+        self.expect("ov<tab>z<backspace><backspace>")
         self.xdo("key", "v", "v", "7")
-        self.expect("oo7")
+        self.expect("o7")
         self.xdo("key", "7")
-        self.expect("oo")
+        self.expect("o")
 
         # A drag turns the view, a held key moves the camera, and 0 resets both.
         self.xdo("mousemove", "--window", self.window, "300", "200", "mousedown", "1", "mousemove", "--window",
                  self.window, "360", "180", "mouseup", "1")
         wait_for(lambda: self.shown() != home, "the view to turn")
         self.xdo("key", "0")
-        self.expect("oo")
+        self.expect("o")
         self.xdo("keydown", "w")
         wait_for(lambda: self.shown() != home, "the camera to move")
         self.xdo("keyup", "w")
         self.xdo("key", "0")
-        self.expect("oo")
+        self.expect("o")
 
-        for size, keys in (("320x200", "o"), ("801x503", "oo")):
+        for size in ("320x200", "801x503"):
             self.xdo("windowsize", "--sync", self.window, *size.split("x"))
-            self.expect(keys, size)
+            self.expect("o", size)
 
         self.xdo("key", "p")
         stream = wait_for(lambda: [*self.saved.glob("*.tri")], "files")[0]
@@ -179,6 +178,32 @@ class Window(Viewer):
         out, err = self.program.communicate(timeout=PATIENCE_S)
         self.assertEqual((self.program.returncode, err), (0, ""))
         self.assertEqual(out.split(), [str(stream.with_suffix(".png")), str(stream)])
+
+    def test_mouse_and_search_in_the_panel(self):
+        def picture():
+            return self.shown().part(0, 0, self.PICTURE_WIDTH, 600)
+
+        self.expect("o")
+        self.xdo("key", "slash")
+        all_help = self.expect("/")
+        self.xdo("type", "--delay", "50", "quit")  # searches, and does not quit
+        wait_for(lambda: self.shown() != all_help, "the search")
+        self.xdo("key", "Escape")  # ends the search
+        help_again = self.expect("h")
+        self.xdo("key", "h")
+        wait_for(lambda: self.shown() != help_again, "the end of the help")
+        home = picture()
+        for y in range(10, 300, 10):  # down the panel, until a method or culling changes the picture
+            for place in (y, y + 45, 590):  # opens a list, chooses from it, or closes it
+                self.xdo("mousemove", "--window", self.window, "750", str(place), "click", "1")
+                time.sleep(0.1)
+            if picture() != home:
+                break
+        else:
+            self.fail("no click in the panel changed the picture")
+        self.xdo("key", "q")
+        self.program.communicate(timeout=PATIENCE_S)
+        self.assertEqual(self.program.returncode, 0)
 
     def test_interruption(self):
         self.program.send_signal(signal.SIGINT)
@@ -222,10 +247,10 @@ class Terminal(Viewer):
             return words in lines and lines[lines.index(words) + 1]
         return find
 
-    def start(self, command):
+    def start(self, command, first):
         # Where a typed line ends in the last column, tmux joins the next one to it: its length may not depend on a path.
         self.type(f'"$EDGEWISE" {command} --terminal; echo status $?; stty -g', "Enter")
-        self.seen("[h] help")
+        self.seen(first)
 
     def expect_all_as_before(self, status):
         self.seen(f"status {status}")
@@ -234,9 +259,10 @@ class Terminal(Viewer):
         self.assertIn("cursor 1", subprocess.run([*self.server, "display-message", "-p", "cursor #{cursor_flag}"],
                                                  check=True, capture_output=True, text=True).stdout)
         self.type("clear; echo be''fore", "Enter")
+        wait_for(lambda: "status" not in self.text(), "a clear screen")
 
-    def test_keys_sizes_and_ends(self):
-        self.start("view cube")
+    def test_keys_and_ends(self):
+        self.start("view cube", "[h] help")
         self.seen("tiled")
         colours = self.text("-e")
         self.assertIn("\u2580", colours)
@@ -247,20 +273,25 @@ class Terminal(Viewer):
         self.type("BSpace")
         self.seen("float_le")
         self.type("h")
-        self.seen("move forwards, left, backwards, right")
-        self.type("h", "h")
+        self.seen("edgewise view --help")
+        self.type("h")
         self.seen("[h] help")
-        subprocess.run([*self.server, "resize-window", "-x", "24", "-y", "8"], check=True)
-        self.seen("float_le")
-        subprocess.run([*self.server, "resize-window", "-x", "90", "-y", "30"], check=True)
-        self.seen("0 gaps")
         self.type("Escape")
         self.expect_all_as_before(0)
-        self.start("demo outlaw-triad")
+        self.start("demo outlaw-triad", "1/4 A quad is kept")
         self.type("5")
-        self.seen("half of the faces")
+        self.seen("2/4 [r] rotates")
         self.type("C-c")
         self.expect_all_as_before(130)
+
+    def test_sizes(self):
+        self.start("view cube --coverage float_le", "gaps: 0")
+        subprocess.run([*self.server, "resize-window", "-x", "24", "-y", "8"], check=True)
+        wait_for(lambda: "float_le" in self.text() and "gaps" not in self.text(), "a narrow screen")
+        subprocess.run([*self.server, "resize-window", "-x", "90", "-y", "30"], check=True)
+        self.seen("gaps: 0")
+        self.type("Escape")
+        self.expect_all_as_before(0)
 
 
 if __name__ == "__main__":
@@ -268,7 +299,7 @@ if __name__ == "__main__":
     missing = [tool for tool in ("Xvfb", "xdotool", "tmux") if shutil.which(tool) is None]
     if "without SDL2" in subprocess.run([EDGEWISE, "view"], env={**os.environ, "SDL_VIDEODRIVER": "none"},
                                         capture_output=True, text=True).stderr:
-        missing.append("SDL2, when this was built,")
+        missing.append("SDL2 and Dear ImGui, when this was built,")
     if missing:
         print(f"skipped: {', '.join(missing)} not installed (scripts/packages.txt: viewer, test)")
         sys.exit(SKIPPED)

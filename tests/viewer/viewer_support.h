@@ -8,11 +8,9 @@
 
 #include "edgewise/builtin.h"
 #include "viewer/session.h"
-#include "viewer/typing.h"
 
 namespace edgewise::viewer {
 
-inline constexpr Cell kTestCell{6, 10};
 inline constexpr tools::Size kTestSize{240, 160};
 
 // A box to the right of the line of sight: its left side is visible, although the z of that side's normal is
@@ -44,14 +42,16 @@ inline Session session_of(std::string_view scene) {
 }
 
 // Types keys as --keys takes them.
-inline Screen& type(Session& session, std::string_view keys, tools::Size size = kTestSize) {
-  type(session, parse_keys(keys), size, kTestCell);
-  return session.draw(size, kTestCell);
+inline const Screen& type(Session& session, std::string_view keys, tools::Size size = kTestSize) {
+  session.draw(size);
+  session.type(parse_keys(keys));
+  return session.draw(size);
 }
 
-inline bool says(const Screen& screen, std::string_view words) {
-  return std::any_of(screen.texts.begin(), screen.texts.end(),
-                     [&](const Text& text) { return text.words.find(words) != std::string::npos; });
+// How many labels have these words.
+inline auto labels(const Screen& screen, std::string_view words) {
+  return std::count_if(screen.labels.begin(), screen.labels.end(),
+                       [&](const Label& label) { return label.words == words; });
 }
 
 }  // namespace edgewise::viewer

@@ -1,6 +1,9 @@
-// Drawing over a picture: tinted errors, outlines, the magnifier, the axes, labels in the scene.
+// What is added to a picture: tinted errors, outlines, labels in the scene. What the panel shows of a pixel:
+// those around it, and the triangles that reach it.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,15 +11,27 @@
 #include "edgewise/backend.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
+#include "edgewise/screen_triangle.h"
 #include "lab/error_marks.h"
 #include "support/options.h"
 #include "viewer/face_states.h"
-#include "viewer/text.h"
 
 namespace edgewise::viewer {
 
 struct Pixel {
   int x, y;
+};
+
+// Text in the scene.
+struct Label {
+  int x, y;           // px, its centre in the picture
+  std::string words;  // ASCII
+  std::uint32_t colour;
+};
+
+struct Screen {
+  Image picture;
+  std::vector<Label> labels;
 };
 
 // Paints the marked pixels in the colours of their marks.
@@ -31,28 +46,34 @@ inline constexpr std::uint32_t kOneOutline = rgb(0, 0, 0), kPiecesOutline = rgb(
 void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> visible,
                   Backend& wireframe, FrameView scratch, const Execution& execution, Image& image);
 
-// Draws the magnifier, a framed enlargement of the pixels around `focus`, into the lower right corner.
-void magnify(Image& image, Pixel focus);
-int magnifier_side(tools::Size picture);  // px
+// The pixels around `focus`, `reach` to each side; black outside the picture's columns left … right - 1. All
+// have the alpha 255.
+Image around(const Image& image, int left, int right, Pixel focus, int reach);
+
+// A triangle that reaches into a pixel.
+struct TriangleOfPixel {
+  std::size_t index;                  // in the front end's output
+  std::uint32_t colour;               // its payload
+  std::array<std::int64_t, 3> edges;  // at the sample, in sub-units squared (rule 4); all >= 0: covers it
+  double depth01;                     // of its plane at the sample
+  bool covers() const { return (edges[0] | edges[1] | edges[2]) >= 0; }
+};
+// Those that cover the sample come first, the nearest of them first.
+std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel);
 
 // Pastes `from` with its upper left corner at (x, y), clipped to `into`.
 void paste(const Image& from, int x, int y, Image& into);
 
-// Draws the world's axes as the camera sees them into the lower left corner, with letters: x red, y green, z
-// blue.
-void draw_axes(const Camera& camera, Cell cell, Screen& screen);
-
 std::size_t vertex_count(const Scene& scene);    // of all instances
 inline constexpr std::size_t kMostLabels = 300;  // more would be unreadable
 // A vertical strip of the screen, over its whole height, that shows one picture.
-struct Panel {
+struct Strip {
   int left, width, height;  // px
-  Cell cell;
 };
 // Adds the number of each vertex in view; none if the scene has more than kMostLabels vertices.
-void add_vertex_labels(const Scene& scene, const Panel& panel, std::vector<Text>& texts);
+void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label>& labels);
 // Adds the state letter of each face in view at its centre; none for more than kMostLabels faces.
-void add_face_letters(const Camera& camera, std::span<const FaceState> faces, const Panel& panel,
-                      std::vector<Text>& texts);
+void add_face_letters(const Camera& camera, std::span<const FaceState> faces, const Strip& strip,
+                      std::vector<Label>& labels);
 
 }  // namespace edgewise::viewer

@@ -1,0 +1,139 @@
+#include "viewer/annotations.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
+#include "frontend/view.h"
+#include "viewer/world.h"
+
+namespace edgewise::viewer {
+
+void tint(Image& image, std::span<const lab::Mark> marks) {
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i] != lab::Mark::none) image.pixels[i] = lab::colour_of(marks[i]);
+}
+
+void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> visible,
+                  Backend& wireframe, FrameView scratch, const Execution& execution, Image& image) {
+  std::vector<std::uint32_t> pieces(1);  // by payload: number of triangles
+  for (const ScreenTriangle& t : triangles) {
+    pieces.resize(std::max<std::size_t>(pieces.size(), t.payload + std::size_t{1}));
+    ++pieces[t.payload];
+  }
+  wireframe.draw(triangles, scratch, 0, execution);
+  const auto visible_near = [&](std::uint32_t source, int x, int y) {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
+        if (visible[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
+                    static_cast<std::size_t>(u)] == source)
+          return true;
+    return false;
+  };
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint32_t* const lines = scratch.payload + std::ptrdiff_t{y} * scratch.stride;
+    std::uint32_t* const row = image.pixels.data() + std::ptrdiff_t{y} * image.width;
+    for (int x = 0; x < image.width; ++x)
+      if (lines[x] != 0 && visible_near(lines[x] - 1, x, y))
+        row[x] = pieces[lines[x]] > 1 ? kPiecesOutline : kOneOutline;
+  }
+}
+
+void paste(const Image& from, int left, int top, Image& into) {
+  const int x0 = std::max(0, -left), x1 = std::min(from.width, into.width - left);
+  for (int y = std::max(0, -top); y < std::min(from.height, into.height - top) && x0 < x1; ++y)
+    std::copy_n(from.pixels.begin() + std::ptrdiff_t{y} * from.width + x0, x1 - x0,
+                into.pixels.begin() + (std::ptrdiff_t{top} + y) * into.width + left + x0);
+}
+
+Image around(const Image& image, int left, int right, Pixel focus, int reach) {
+  const int across = 2 * reach + 1;
+  Image part{across, across,
+             std::vector<std::uint32_t>(static_cast<std::size_t>(across * across), rgb(0, 0, 0))};
+  for (int y = 0; y < across; ++y)
+    for (int x = 0; x < across; ++x) {
+      const int u = left + focus.x - reach + x, v = focus.y - reach + y;
+      if (u >= left && u < right && v >= 0 && v < image.height)
+        part.pixels[static_cast<std::size_t>(y * across + x)] |=
+            image.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(u)];
+    }
+  return part;
+}
+
+std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel) {
+  std::vector<TriangleOfPixel> found;
+  const int x0 = pixel.x * contract::kSub, y0 = pixel.y * contract::kSub;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const ScreenTriangle& t = triangles[i];
+    const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
+    const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
+    const contract::Oriented o = contract::orient(t);
+    if (max_x < x0 || max_y < y0 || min_x > x0 + contract::kSub || min_y > y0 + contract::kSub || o.area == 0)
+      continue;
+    TriangleOfPixel of{i, t.payload, {}, contract::depth01(contract::make_depth(o).at(pixel.x, pixel.y))};
+    bool reaches = true;
+    for (int k = 0; k < 3; ++k) {
+      const contract::Edge edge = contract::make_edge(o, k);
+      const std::int64_t value = edge.at(pixel.x, pixel.y);
+      // The most that the value grows between the sample and a corner of the pixel.
+      const std::int64_t growth =
+          std::int64_t{contract::kHalf} * (std::int64_t{std::abs(edge.a)} + std::abs(edge.b));
+      reaches = reaches && value + growth > 0;
+      of.edges[static_cast<std::size_t>(k)] = value;
+    }
+    if (reaches) found.push_back(of);
+  }
+  std::ranges::stable_sort(found, {}, [](const TriangleOfPixel& t) {
+    return std::pair(!t.covers(), t.covers() ? t.depth01 : 0.0);
+  });
+  return found;
+}
+
+std::size_t vertex_count(const Scene& scene) {
+  std::size_t vertices = 0;
+  for (const Instance& instance : scene.instances)
+    vertices += scene.meshes.at(instance.mesh).positions.size();
+  return vertices;
+}
+
+namespace {
+
+// Adds a label centred on a point in the world, if the strip shows it.
+void add_label(const glm::dmat4& to_screen, glm::dvec3 world, const Strip& strip, std::string words,
+               std::uint32_t colour, std::vector<Label>& labels) {
+  const glm::dvec4 p = to_screen * glm::dvec4(world, 1.0);
+  const double x = p.x / p.w, y = p.y / p.w;
+  if (p.w > 0.0 && p.z >= 0.0 && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
+    labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
+}
+
+std::uint32_t colour_of(TriangleState state) {
+  if (state == TriangleState::active) return rgb(255, 255, 255);
+  return state == TriangleState::clipped ? rgb(255, 210, 60) : rgb(150, 170, 190);
+}
+
+}  // namespace
+
+void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label>& labels) {
+  if (vertex_count(scene) > kMostLabels) return;
+  const glm::dmat4 to_screen = screen_matrix(scene.camera, strip.width, strip.height);
+  for (const Instance& instance : scene.instances) {
+    const glm::dmat4 to_pixels = to_screen * model_matrix(instance);
+    const auto& positions = scene.meshes[instance.mesh].positions;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      add_label(to_pixels, positions[i], strip, std::to_string(i), rgb(255, 255, 255), labels);
+  }
+}
+
+void add_face_letters(const Camera& camera, std::span<const FaceState> faces, const Strip& strip,
+                      std::vector<Label>& labels) {
+  if (faces.size() > kMostLabels) return;
+  const glm::dmat4 to_screen = screen_matrix(camera, strip.width, strip.height);
+  for (const FaceState& face : faces)
+    add_label(to_screen, face.centre, strip, {letter_of(face)}, colour_of(face.state), labels);
+}
+
+}  // namespace edgewise::viewer

@@ -1,0 +1,64 @@
+// The panel beside the picture: methods, errors, magnifier, times, a demo's steps, help. Dear ImGui lays it
+// out and handles its input; imgui_paint.h paints it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "edgewise/image.h"
+#include "support/options.h"
+#include "viewer/session.h"
+
+struct ImGuiContext;
+struct ImGuiIO;
+
+namespace edgewise::viewer {
+
+#ifdef EDGEWISE_IMGUI
+
+class Panel {
+ public:
+  static constexpr int kFont_px = 13;  // the height for which Dear ImGui's font is made
+  // The font is larger than asked for in a high window, and smaller where half of the window is too narrow.
+  explicit Panel(int least_font_px = kFont_px);
+  ~Panel();
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+
+  // In px; 0 if the window has no room for a panel beside the picture.
+  int width_px(tools::Size window) const;
+  // Draws the session's picture and the panel. The reference is valid until the next call.
+  const Image& show(Session& session, tools::Size window);
+
+  // Input. The first two return whether it is for the panel; if not, it is for the session.
+  bool press(Key key);
+  bool point(Pixel to, bool held);
+  void release(Key key) { released_.push_back(key); }
+  void scroll(float lines);
+  void type(const char* utf8);
+
+ private:
+  ImGuiIO& current_io();                  // makes this panel's context the current one
+  int font_px(tools::Size window) const;  // 0: no room
+  void set_font(int px);
+
+  class Contents;
+  ImGuiContext* context_;
+  std::unique_ptr<Contents> contents_;
+  int least_font_px_, font_px_ = 0;
+  Image font_, image_;
+  int picture_width_px_ = 0;
+  std::vector<Key> released_;  // since the last frame; Dear ImGui sees each press for one frame at least
+  bool mouse_released_ = false, began_in_panel_ = false;
+};
+
+#else  // built without Dear ImGui: the picture alone
+
+struct Panel {
+  static int width_px(tools::Size) { return 0; }
+  static const Image& show(Session& session, tools::Size window) { return session.draw(window).picture; }
+};
+
+#endif
+
+}  // namespace edgewise::viewer
