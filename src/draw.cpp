@@ -9,20 +9,23 @@
 namespace edgewise {
 
 void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
-          FrameView frame, std::uint32_t background, const Execution& execution) {
+          FrameView frame, const RenderPass& pass, const Execution& execution) {
   throw_if_of_another_size("a drawable with options", options.width, options.height, frame);
   const Execution resolved = checked(frame, execution);
-  if (TriangleSource* const source = frontend.start_source(drawable, options, resolved.threads)) {
+  const FramePart part = checked(frame, pass);
+  TriangleSource* const source =
+      is_empty(part) ? nullptr : frontend.start_source(drawable, options, resolved.threads);
+  if (source != nullptr) {
     struct End {  // also if drawing throws
       Frontend& frontend;
       ~End() { frontend.end_source(); }
     };
     const End end{frontend};
-    if (backend.draw_source(*source, frame, background, resolved)) return;
+    if (backend.draw_source(*source, backend.with_payload(part), resolved)) return;
   }
   FrontendOptions in_two_calls = options;
   if (std::holds_alternative<TriangleStream>(drawable)) in_two_calls.threads = resolved.threads;
-  backend.draw(frontend.run(drawable, in_two_calls), frame, background, resolved);
+  backend.draw(frontend.run(drawable, in_two_calls), frame, pass, resolved);
 }
 
 }  // namespace edgewise

@@ -8,7 +8,9 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include "edgewise/contract.h"
 #include "edgewise/framebuffer.h"
 #include "edgewise/limits.h"
 #include "edgewise/scene.h"
@@ -28,6 +30,34 @@ struct Execution {
   SimdTarget target = SimdTarget::best;
 };
 
+// Columns x … x + width - 1 and rows y … y + height - 1. It may lie partly or wholly outside of a frame. By
+// default it holds every frame.
+struct PixelRect {
+  int x = 0, y = 0;                                                       // px
+  int width = contract::kMaxImageSide, height = contract::kMaxImageSide;  // px, at least 0
+};
+
+// What a draw does to a frame, except for its triangles. By default it clears the whole frame.
+struct RenderPass {
+  std::uint32_t background = 0;  // the payload of cleared pixels
+  // Whether the draw first clears the frame, to contract::kDepthClear and `background`. Otherwise it draws
+  // over what the frame holds (it loads the frame), in which no depth may exceed contract::kDepthClear. Draws
+  // add up in order of submission: where depths are equal, the frame keeps what it holds (rule 7). So two
+  // draws equal one draw of both lists of triangles, bit for bit.
+  bool clear = true;
+  // Only the pixels inside are cleared and drawn, as in a draw of the whole frame. The others keep their
+  // depth and payload.
+  PixelRect scissor{};
+};
+
+// The part of a frame that a backend draws: the scissor's, which is not empty.
+struct FramePart {
+  FrameView frame;     // ends at the scissor's right and lower sides
+  int x0 = 0, y0 = 0;  // px, the first column and row
+  std::uint32_t background = 0;
+  bool clear = true;
+};
+
 // A backend keeps its scratch memory between frames, until it is destroyed. Triangles, frame and scratch
 // memory together take less than 100 bytes per triangle and 16 per pixel if triangles are small, and up to 8
 // bytes more per tile or band that a larger triangle overlaps. A backend object is not thread-safe; different
@@ -36,29 +66,44 @@ class Backend {
  public:
   virtual ~Backend() = default;
 
-  // Draws a whole frame: writes every pixel of `frame`, with `background` and contract::kDepthClear where no
-  // triangle is visible. Keeps no reference to its arguments. Requires the ranges of screen_triangle.h, which
-  // are not checked. Frames of similar size and content allocate memory only in the first.
+  // Draws into a frame as `pass` states. If the frame has no payload plane, only depth is drawn. Keeps no
+  // reference to its arguments. Requires the ranges of screen_triangle.h, which are not checked. Frames of
+  // similar size and content allocate memory only in the first.
   // Throws, before it writes or allocates anything, std::invalid_argument for an invalid frame or execution,
-  // or for more than kMaxTriangles triangles. Throws std::bad_alloc if memory runs out, and std::length_error
-  // if the tiles' triangle lists exceed 2^32 entries; then the content of the frame is undefined, and the
-  // backend remains usable.
-  void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  // for a scissor of negative size, or for more than kMaxTriangles triangles. Throws std::bad_alloc if memory
+  // runs out, and std::length_error if the tiles' triangle lists exceed 2^32 entries; then the content of the
+  // frame is undefined, and the backend remains usable.
+  void draw(std::span<const ScreenTriangle> triangles, FrameView frame, const RenderPass& pass,
             const Execution& execution);
   // The same for a front end's output. Also throws std::invalid_argument if that was made for a frame of
   // another size.
-  void draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
+  void draw(const ScreenTriangles& triangles, FrameView frame, const RenderPass& pass,
             const Execution& execution);
+  // Draws a whole frame: writes all its pixels, with `background` and contract::kDepthClear where no triangle
+  // is visible.
+  void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+            const Execution& execution) {
+    draw(triangles, frame, RenderPass{background}, execution);
+  }
+  void draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
+            const Execution& execution) {
+    draw(triangles, frame, RenderPass{background}, execution);
+  }
 
  private:
   friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
-                   Backend& backend, FrameView frame, std::uint32_t background, const Execution& execution);
-  // Draws the triangles of a source. Returns false if it cannot; then draw_checked() is called. Arguments
-  // are as there.
-  virtual bool draw_source(TriangleSource&, FrameView, std::uint32_t, const Execution&) { return false; }
+                   Backend& backend, FrameView frame, const RenderPass& pass, const Execution& execution);
+  // Whether frames may lack a payload plane. Otherwise the backend gets one that nobody reads.
+  virtual bool draws_depth_only() const { return false; }
+  // Draws the triangles of a source. Returns false if it cannot, before it writes to the frame; then
+  // draw_checked() is called. Arguments are as there.
+  virtual bool draw_source(TriangleSource&, const FramePart&, const Execution&) { return false; }
   // Called with checked arguments and a resolved `execution.target`.
-  virtual void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame,
-                            std::uint32_t background, const Execution& execution) = 0;
+  virtual void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
+                            const Execution& execution) = 0;
+  FramePart with_payload(FramePart part);
+
+  std::vector<std::uint32_t> unread_payload_;
 };
 
 // Frontend::run() and Backend::draw() in one call: the same picture and Frontend::stats(). `tiled` draws
@@ -67,7 +112,11 @@ class Backend {
 // clipping adds more than about an eighth to them, they are made twice in every frame.
 // Throws what the two throw, and std::invalid_argument if `options` state another size than `frame` has.
 void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
-          FrameView frame, std::uint32_t background, const Execution& execution);
+          FrameView frame, const RenderPass& pass, const Execution& execution);
+inline void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
+                 Backend& backend, FrameView frame, std::uint32_t background, const Execution& execution) {
+  draw(drawable, frontend, options, backend, frame, RenderPass{background}, execution);
+}
 
 struct BackendInfo {
   std::string_view name;     // the key in command line, tests, results and charts

@@ -11,6 +11,7 @@
 namespace edgewise {
 
 // A read-only view of a frame. Row y starts at depth + y * stride and payload + y * stride; row 0 is the top.
+// `payload` is null if only depth was drawn.
 struct ConstFrameView {
   const std::uint32_t* depth;    // contract units (rule 6); contract::depth01 converts them to 0 … 1
   const std::uint32_t* payload;  // a colour 0xAABBGGRR or an id, as FrontendOptions::payload chose
@@ -19,12 +20,13 @@ struct ConstFrameView {
 };
 
 // A frame for a backend to draw into, in any memory. Row y starts at depth + y * stride and
-// payload + y * stride; row 0 is the top. The memory must outlive the draw. The frame needs no clear: a draw
-// writes all its pixels, and none beyond `width`. Rows that start on 64-byte boundaries are written fastest.
-// Two threads must not draw into one frame at once.
+// payload + y * stride; row 0 is the top. The memory must outlive the draw. The frame needs no clear: by
+// default a draw writes all its pixels (RenderPass in backend.h), and never one beyond `width`. Rows that
+// start on 64-byte boundaries are written fastest. Two threads must not draw into one frame at once, not even
+// into different parts of it.
 struct FrameView {
   std::uint32_t* depth;    // contract units (rule 6), smaller is nearer; contract::kDepthClear: background
-  std::uint32_t* payload;  // the nearest triangle's payload, or the background
+  std::uint32_t* payload;  // the nearest triangle's payload, or the background; null: only depth is drawn
   int width, height;       // px, 1 … contract::kMaxImageSide
   std::ptrdiff_t stride;   // px from row to row, at least width
 

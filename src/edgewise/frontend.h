@@ -87,6 +87,7 @@ struct FrontendStats {
 class Backend;
 struct Execution;
 struct FrameView;
+struct RenderPass;
 class TriangleSource;  // internal
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
@@ -132,7 +133,7 @@ class Frontend {
 
  private:
   friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
-                   Backend& backend, FrameView frame, std::uint32_t background, const Execution& execution);
+                   Backend& backend, FrameView frame, const RenderPass& pass, const Execution& execution);
   // Returns a source for up to `workers` workers, or null if run() must be called. Throws what that throws.
   // The source refers to `drawable`, and is valid until end_source(), which completes stats().
   TriangleSource* start_source(const Drawable& drawable, const FrontendOptions& options, int workers);

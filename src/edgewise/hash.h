@@ -12,7 +12,8 @@
 namespace edgewise {
 
 // XXH3-64 (seed 0) of these 32-bit words, of which each is four bytes, the lowest first, on every machine:
-//   width, height, then row by row from the top: the depths of the row, from the left, then its payloads.
+//   width, height, then row by row from the top: the depths of the row, from the left, then its payloads,
+//   if the frame has any.
 // Stride, alignment and memory beside the image do not count.
 std::uint64_t hash_of(const ConstFrameView& frame);
 

@@ -23,7 +23,8 @@ struct DepthMap {
   std::vector<float> depth01;  // row by row, top first; 0 is near, 1 is far or background
 };
 
-// Copies of a frame's payload or depth. A FrameView or a Framebuffer converts to ConstFrameView.
+// Copies of a frame's payload or depth. A FrameView or a Framebuffer converts to ConstFrameView. to_image()
+// throws std::invalid_argument if the frame has no payload plane.
 Image to_image(const ConstFrameView& frame);
 DepthMap to_depth_map(const ConstFrameView& frame);  // contract units (rule 6) → [0, 1]
 

@@ -1,4 +1,5 @@
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,7 @@ std::uint16_t scaled(const fs::path& path, std::uint32_t sample, std::uint32_t m
 }  // namespace
 
 Image to_image(const ConstFrameView& frame) {
+  if (frame.payload == nullptr) throw std::invalid_argument("a frame without payloads is no picture");
   Image image{frame.width, frame.height, {}};
   image.pixels.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
   for (int y = 0; y < frame.height; ++y) {

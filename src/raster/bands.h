@@ -16,10 +16,14 @@ struct RowRange {
   int begin, end;
 };
 
-inline void clear_rows(FrameView frame, RowRange rows, std::uint32_t background) {
+// Clears rows of a part, unless it is drawn over what it holds.
+inline void clear_rows(const FramePart& part, RowRange rows) {
+  if (!part.clear) return;
+  const FrameView& frame = part.frame;
   for (int y = rows.begin; y < rows.end; ++y) {
-    std::fill_n(frame.depth + y * frame.stride, frame.width, contract::kDepthClear);
-    std::fill_n(frame.payload + y * frame.stride, frame.width, background);
+    const std::ptrdiff_t first = y * frame.stride + part.x0;
+    std::fill_n(frame.depth + first, frame.width - part.x0, contract::kDepthClear);
+    std::fill_n(frame.payload + first, frame.width - part.x0, part.background);
   }
 }
 
@@ -28,31 +32,35 @@ inline void clear_rows(FrameView frame, RowRange rows, std::uint32_t background)
 inline constexpr int kBandRowsLog2 = 5;
 static_assert(contract::kDepthCell % (1 << kBandRowsLog2) == 0);
 
-// Bins triangles to bands, and calls draw(band, rows) for each band, in parallel. Band i's triangles are
-// those of cell i in `bins`. Returns false if Bins::build() does; then nothing is drawn.
+// Bins triangles to bands, and calls draw(band, rows) for each band of the part, in parallel. Band i's
+// triangles are those of cell i in `bins`. Returns false if Bins::build() does; then nothing is drawn.
 template <typename Draw>
-bool draw_in_bands(TriangleSource& triangles, FrameView frame, const Execution& execution, Bins& bins,
+bool draw_in_bands(TriangleSource& triangles, const FramePart& part, const Execution& execution, Bins& bins,
                    Draw&& draw) {
   constexpr int kWholeWidthLog2 = 14;
   static_assert(1 << kWholeWidthLog2 == contract::kMaxImageSide);
-  const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2};
+  const CellGrid grid{part.frame.width, part.frame.height, kWholeWidthLog2, kBandRowsLog2};
   if (!bins.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices))
     return false;
-  parallel_for(execution.threads, grid.rows(), [&](int band) {
-    draw(band, RowRange{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)});
+  const int first = part.y0 >> kBandRowsLog2;
+  parallel_for(execution.threads, grid.rows() - first, [&](int i) {
+    const int band = first + i;
+    draw(band, RowRange{std::max(band << kBandRowsLog2, part.y0),
+                        std::min((band + 1) << kBandRowsLog2, part.frame.height)});
   });
   return true;
 }
 
 inline constexpr int kLongestVector = 16;  // px
 
-// The task of drawing the triangles of a cell in a part of the frame that is clear: a band, or rows of a
-// tile.
+// The task of drawing the triangles of a cell in the frame itself: those of a band, or of rows of a tile.
 struct BandTask {
   const Bins& bins;
   int cell;
-  // Begins at a multiple of kLongestVector, and is at least that wide. Its rows lie in one row of depth
-  // cells.
+  // Ends at kLongestVector or further right. Its rows lie in one row of depth cells.
+  //
+  // A vector of pixels begins at a multiple of its length or ends with the area. So it may begin left of the
+  // area, where it keeps what the frame holds. No other thread may draw there.
   contract::PixelBox area;
   FrameView frame;
 };
@@ -69,23 +77,23 @@ class BandBackend : public Backend {
   explicit BandBackend(BandKernel (*kernel_for)(SimdTarget)) : kernel_for_(kernel_for) {}
 
  private:
-  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution) final {
+  bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) final {
+    const FrameView& frame = part.frame;
     // Each vector of pixels lies in the frame, which must be as wide as the longest vector.
     const BandKernel kernel =
         kernel_for_(frame.width < kLongestVector ? SimdTarget::scalar : execution.target);
     const ClearKernel clear = clear_kernel(execution.target);
-    return draw_in_bands(triangles, frame, execution, bins_, [&](int band, RowRange rows) {
+    return draw_in_bands(triangles, part, execution, bins_, [&](int band, RowRange rows) {
       // A span of tiles of one pixel, as wide as any image.
       constexpr TileSpan kWholeWidth{0, contract::kMaxImageSide};
-      clear({{&kWholeWidth, 1}, rows.begin, rows.end, 0, frame, background, false});
-      kernel({bins_, band, {0, rows.begin, frame.width, rows.end}, frame});
+      if (part.clear) clear({{&kWholeWidth, 1}, rows.begin, rows.end, 0, part, false});
+      kernel({bins_, band, {part.x0, rows.begin, frame.width, rows.end}, frame});
     });
   }
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) final {
     StoredTriangles stored(triangles);
-    draw_source(stored, frame, background, execution);  // always true: stored triangles are not copied
+    draw_source(stored, part, execution);  // always true: stored triangles are not copied
   }
 
   BandKernel (*const kernel_for_)(SimdTarget);

@@ -8,6 +8,12 @@ namespace edgewise {
 // `execution` with a resolved target. Throws std::invalid_argument.
 Execution checked(const FrameView& frame, const Execution& execution);
 
+// The part of a valid frame that a draw writes; it may be empty. Throws std::invalid_argument.
+FramePart checked(const FrameView& frame, const RenderPass& pass);
+inline bool is_empty(const FramePart& part) {
+  return part.x0 >= part.frame.width || part.y0 >= part.frame.height;
+}
+
 // Throws std::invalid_argument if `what`, made for a frame of width x height px, is to be drawn into another.
 void throw_if_of_another_size(const char* what, int width, int height, const FrameView& frame);
 

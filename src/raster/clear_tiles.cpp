@@ -18,32 +18,34 @@ namespace HWY_NAMESPACE {
 // `ahead` px further.
 template <typename Store>
 void fill_plane(const ClearTask& task, std::uint32_t* plane, std::uint32_t value, Store&& store) {
+  const FrameView& frame = task.part.frame;
   const V v = hn::Set(D{}, static_cast<std::int32_t>(value));
   for (int y = task.y0; y < task.y1; ++y)
     for (const TileSpan& tiles : task.tiles) {
-      std::uint32_t* const row = plane + y * task.frame.stride;
-      std::uint32_t* at = row + (tiles.begin << task.size_log2);
-      std::uint32_t* const end = row + std::min(tiles.end << task.size_log2, task.frame.width);
-      const std::ptrdiff_t ahead = y + 1 < task.y1 ? task.frame.stride : 0;
+      std::uint32_t* const row = plane + y * frame.stride;
+      std::uint32_t* at = row + std::max(tiles.begin << task.size_log2, task.part.x0);
+      std::uint32_t* const end = row + std::min(tiles.end << task.size_log2, frame.width);
+      const std::ptrdiff_t ahead = y + 1 < task.y1 ? frame.stride : 0;
       for (; at + kLanes <= end; at += kLanes) store(v, reinterpret_cast<std::int32_t*>(at), ahead);
       std::fill(at, end, value);
     }
 }
 
 void clear_tiles(const ClearTask& task) {
+  const FrameView& frame = task.part.frame;
   const auto cached = [](V v, std::int32_t* at, std::ptrdiff_t ahead) {
     if (kLanes > 1) __builtin_prefetch(at + ahead, 1);  // pixel by pixel, it would cost more than it saves
     hn::StoreU(v, D{}, at);
   };
   const auto streamed = [](V v, std::int32_t* at, std::ptrdiff_t) { hn::Stream(v, D{}, at); };
   const auto fill = [&](std::uint32_t* plane, std::uint32_t value) {
-    if (task.streaming && may_stream(plane, task.frame.stride))
+    if (task.streaming && may_stream(plane, frame.stride) && task.part.x0 % kLanes == 0)
       fill_plane(task, plane, value, streamed);
     else
       fill_plane(task, plane, value, cached);
   };
-  fill(task.frame.depth, contract::kDepthClear);
-  fill(task.frame.payload, task.background);
+  fill(frame.depth, contract::kDepthClear);
+  if (frame.payload != nullptr) fill(frame.payload, task.part.background);
   hwy::FlushStream();
   clear_upper_halves();
 }

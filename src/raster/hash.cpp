@@ -40,7 +40,7 @@ std::uint64_t hash_of(const ConstFrameView& frame) {
   hasher.add(std::span<const std::uint32_t>(size));
   for (int y = 0; y < frame.height; ++y)
     for (const std::uint32_t* const plane : {frame.depth, frame.payload})
-      hasher.add(std::span(plane + y * frame.stride, size[0]));
+      if (plane != nullptr) hasher.add(std::span(plane + y * frame.stride, size[0]));
   return hasher.digest();
 }
 

@@ -1,6 +1,7 @@
-// The tasks of drawing a frame in tiles. A row of tiles has a task for each tile drawn in a buffer, and then
-// one, or several on many threads, that clears its empty and light tiles together and draws the light ones in
-// the frame. oneTBB gets up to four of these tasks at once.
+// The tasks of drawing a part of a frame in tiles. A row of tiles has a task for each tile drawn in a buffer,
+// and then one, or several on many threads, that clears its empty and light tiles together and draws the
+// light ones in the frame. If nothing is cleared, an empty tile has no task. oneTBB gets up to four of these
+// tasks at once.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "edgewise/framebuffer.h"
+#include "edgewise/backend.h"
 #include "edgewise/simd_target.h"
 #include "raster/binning/bins.h"
 
@@ -25,13 +26,13 @@ class TileList {
   struct Task {
     int cell;    // in the bins; kClearTiles: the pixel rows y0 … y1 - 1 of a row's empty and light tiles
     int row;     // of tiles
-    int y0, y1;  // px
+    int y0, y1;  // px, in the part
   };
   static constexpr int kClearTiles = -1;
 
-  // is_light(cell): whether a tile with triangles is light.
+  // `grid`: of the part's frame. is_light(cell): whether a tile with triangles is light.
   template <typename IsLight>
-  void build(const Bins& bins, const CellGrid& grid, int threads, IsLight&& is_light) {
+  void build(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads, IsLight&& is_light) {
     const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
     const int most_strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
     tasks_.clear(), clear_.clear(), row_begin_.clear(), light_.clear(), light_begin_.clear();
@@ -41,20 +42,22 @@ class TileList {
     light_.reserve(static_cast<std::size_t>(columns * rows));
     row_begin_.reserve(static_cast<std::size_t>(rows) + 1);
     light_begin_.reserve(static_cast<std::size_t>(rows) + 1);
-    for (int row = 0, cell = 0; row < rows; ++row) {
-      const int y0 = row * side, height = std::min(side, grid.height - y0);
+    for (int row = 0; row < rows; ++row) {
+      const int y0 = std::max(row * side, part.y0), height = std::min((row + 1) * side, grid.height) - y0;
       row_begin_.push_back(clear_.size());
       light_begin_.push_back(light_.size());
+      if (height <= 0) continue;  // above the part
       bool after_cleared = false;
-      for (int column = 0; column < columns; ++column, ++cell) {
-        const bool is_empty = bins.empty(cell), is_cleared = is_empty || is_light(cell);
-        if (!is_cleared)
-          tasks_.push_back({cell, row, y0, y0 + height});
-        else if (after_cleared)
+      for (int column = part.x0 >> grid.cell_w_log2; column < columns; ++column) {
+        const int cell = row * columns + column;
+        const bool is_empty = bins.empty(cell), in_buffer = !is_empty && !is_light(cell);
+        const bool is_cleared = !in_buffer && (part.clear || !is_empty);
+        if (in_buffer) tasks_.push_back({cell, row, y0, y0 + height});
+        if (is_cleared && after_cleared)
           ++clear_.back().end;
-        else
+        else if (is_cleared)
           clear_.push_back({column, column + 1});
-        if (is_cleared && !is_empty) light_.push_back(cell);
+        if (!in_buffer && !is_empty) light_.push_back(cell);
         after_cleared = is_cleared;
       }
       if (clear_.size() == row_begin_.back()) continue;
@@ -67,7 +70,7 @@ class TileList {
   }
 
   std::span<const Task> tasks() const { return tasks_; }
-  // The empty and the light tiles of a row.
+  // The empty and the light tiles of a row; if nothing is cleared, only the light ones.
   std::span<const TileSpan> tiles_to_clear(int row) const { return of_row(clear_, row_begin_, row); }
   // The cells of the light tiles of a row.
   std::span<const int> light_tiles(int row) const { return of_row(light_, light_begin_, row); }
@@ -100,8 +103,7 @@ struct ClearTask {
   std::span<const TileSpan> tiles;  // of one row
   int y0, y1;                       // the pixel rows y0 … y1 - 1
   int size_log2;                    // px, of a tile
-  FrameView frame;
-  std::uint32_t background;
+  FramePart part;
   bool streaming;  // requested
 };
 

@@ -1,5 +1,5 @@
 // Shared by the tile kernels: copies a finished tile to the frame by cached or streaming stores
-// (raster/tile_options.h).
+// (raster/tile_options.h), and before that the frame to a tile that is drawn over it.
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
@@ -33,17 +33,19 @@ HWY_INLINE bool may_stream(const std::uint32_t* plane, std::ptrdiff_t stride) {
 struct FramePlane {
   std::int32_t* at;
   std::ptrdiff_t stride;
-  int width, height;  // px
-  bool streaming;     // requested, and possible with the frame's alignment
-  int ahead;          // px to the tile at the right; 0 if there is none
+  int left, top, width, height;  // px, as in TileTask
+  bool streaming;                // requested, and possible with the frame's alignment
+  int ahead;                     // px to the tile at the right; 0 if there is none
 
   FramePlane(const TileTask& task, std::uint32_t* plane)
-      : at(reinterpret_cast<std::int32_t*>(plane + task.y0 * task.frame.stride + task.x0)),
-        stride(task.frame.stride),
+      : at(reinterpret_cast<std::int32_t*>(plane + task.y0 * task.part.frame.stride + task.x0)),
+        stride(task.part.frame.stride),
+        left(task.left()),
+        top(task.top()),
         width(task.width()),
         height(task.height()),
         streaming(task.streaming && may_stream(plane, stride)),
-        ahead(task.x0 + 2 * task.size() <= task.frame.width ? task.size() : 0) {}
+        ahead(task.x0 + 2 * task.size() <= task.part.frame.width ? task.size() : 0) {}
 
   HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }
 };
@@ -65,14 +67,14 @@ HWY_INLINE void write_to(const FramePlane& to, Write&& write) {
 }
 
 // Vectors of pixels from a tile's buffers, from the i-th pixel on, as they are stored to the frame.
-struct Depths {
+struct Buffered {
   const std::int32_t* buffer;
   template <typename DX>
   HWY_INLINE hn::Vec<DX> operator()(DX d, int i) const {
     return hn::Load(d, buffer + i);
   }
 };
-// The payload buffer needs no clear: it is used only at pixels whose depth is nearer than kDepthClear.
+// With the background at pixels whose depth is clear, so the payload buffer needs no clear.
 struct Payloads {
   const std::int32_t *buffer, *depth;
   std::int32_t background;
@@ -88,10 +90,25 @@ struct Payloads {
 template <typename Write>
 HWY_INLINE void write_tile(const TileTask& task, const std::int32_t* depth, const std::int32_t* payload,
                            Write&& write) {
-  write(FramePlane(task, task.frame.depth), Depths{depth});
-  write(FramePlane(task, task.frame.payload),
-        Payloads{payload, depth, static_cast<std::int32_t>(task.background)});
+  const FrameView& frame = task.part.frame;
+  write(FramePlane(task, frame.depth), Buffered{depth});
+  if (frame.payload != nullptr) {
+    const FramePlane plane(task, frame.payload);
+    if (task.part.clear)
+      write(plane, Payloads{payload, depth, static_cast<std::int32_t>(task.part.background)});
+    else
+      write(plane, Buffered{payload});
+  }
   hwy::FlushStream();
+}
+
+// Unless the frame is cleared, calls read(plane, buffer) for depth and payload.
+template <typename Read>
+HWY_INLINE void read_tile(const TileTask& task, std::int32_t* depth, std::int32_t* payload, Read&& read) {
+  const FrameView& frame = task.part.frame;
+  if (task.part.clear) return;
+  read(FramePlane(task, frame.depth), depth);
+  if (frame.payload != nullptr) read(FramePlane(task, frame.payload), payload);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "edgewise/framebuffer.h"
+#include "edgewise/backend.h"
 #include "edgewise/simd_target.h"
 #include "raster/binning/bins.h"
 
@@ -17,15 +17,17 @@ struct TileTask {
   int cell;       // index of the tile in `bins`
   int x0, y0;     // px, the tile's first pixel; multiples of the tile's size
   int size_log2;  // px; at most 6
-  FrameView frame;
-  std::uint32_t background;
+  FramePart part;
   bool hierarchical_depth;  // TileOptions::hierarchical_depth
   bool streaming;           // requested
 
   int size() const { return 1 << size_log2; }  // px
-  // The part inside the frame, px.
-  int width() const { return std::min(size(), frame.width - x0); }
-  int height() const { return std::min(size(), frame.height - y0); }
+  // The tile's columns left() … width() - 1 and rows top() … height() - 1 are drawn, px. The kernel may also
+  // draw what lies left of or above them in its buffer, but must not store it.
+  int left() const { return std::max(part.x0 - x0, 0); }
+  int top() const { return std::max(part.y0 - y0, 0); }
+  int width() const { return std::min(size(), part.frame.width - x0); }
+  int height() const { return std::min(size(), part.frame.height - y0); }
 };
 
 using TileKernel = void (*)(const TileTask&);

@@ -29,7 +29,8 @@ enum class TileContent { nothing, few, many };
 // - If the triangles exceed an L2 cache, they need the LLC, and a tile with triangles is streamed.
 // - On one thread, a tile with many triangles is streamed while the next one is drawn. Several threads that
 //   stream would wait for the memory's bandwidth.
-// - Other tiles get cached stores.
+// - Other tiles get cached stores, and so do all tiles that are drawn over what the frame holds: they have
+//   just been loaded.
 // `triangles`: the inputs of the source, which for Backend::draw() are screen triangles.
 constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {
@@ -51,12 +52,13 @@ constexpr int tasks_at_once(int tasks, int threads) {
 inline constexpr std::uint32_t kLightTriangles = 2;
 static_assert(kLongestVector <= 16);  // px, of the smallest tile
 
-// `draw_light` draws light tiles. If it is null, or tiles with few triangles are streamed, no tile is light.
-// Returns false if Bins::build() does; then nothing is drawn.
+// `draw_light` draws light tiles. If it is null, or tiles with few triangles are streamed, or the frame has
+// no payload plane, no tile is light. Returns false if Bins::build() does; then nothing is drawn.
 template <typename DrawTile>
-bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution, const TileOptions& options, TileScratch& scratch,
-                   DrawTile&& draw_tile, BandKernel draw_light = nullptr) {
+bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execution& execution,
+                   const TileOptions& options, TileScratch& scratch, DrawTile&& draw_tile,
+                   BandKernel draw_light = nullptr) {
+  const FrameView& frame = part.frame;
   const int size_log2 = std::countr_zero(static_cast<unsigned>(execution.tile_size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
   Bins& bins = scratch.bins;
@@ -66,35 +68,36 @@ bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t bac
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
   const auto streamed = [&](TileContent content) {
-    const TileStore store =
-        options.tile_store != TileStore::automatic
-            ? options.tile_store
-            : tile_store_for(content, triangles.size(), execution.threads, frame_bytes, llc_bytes());
+    TileStore store = options.tile_store;
+    if (store == TileStore::automatic)
+      store = part.clear
+                  ? tile_store_for(content, triangles.size(), execution.threads, frame_bytes, llc_bytes())
+                  : TileStore::cached;
     return store == TileStore::streaming;
   };
   const bool stream_empty = streamed(TileContent::nothing), stream_few = streamed(TileContent::few),
              stream_many = streamed(TileContent::many);
   const ClearKernel clear = clear_kernel(execution.target);
   const int columns = grid.columns();
-  const bool any_light = draw_light != nullptr && !stream_few;
+  const bool any_light = draw_light != nullptr && !stream_few && frame.payload != nullptr;
   // A tile that the frame's right side cuts may be narrower than a vector.
-  list.build(bins, grid, execution.threads, [&](int cell) {
+  list.build(bins, grid, part, execution.threads, [&](int cell) {
     return any_light && bins.few(cell, kLightTriangles) && ((cell % columns + 1) << size_log2) <= frame.width;
   });
   const std::span<const TileList::Task> tasks = list.tasks();
   const auto do_task = [&](int i) {
     const TileList::Task& task = tasks[static_cast<std::size_t>(i)];
     if (task.cell == TileList::kClearTiles) {
-      clear({list.tiles_to_clear(task.row), task.y0, task.y1, size_log2, frame, background, stream_empty});
+      if (part.clear) clear({list.tiles_to_clear(task.row), task.y0, task.y1, size_log2, part, stream_empty});
       for (const int cell : list.light_tiles(task.row)) {
-        const int x0 = cell % columns << size_log2;
-        draw_light({bins, cell, {x0, task.y0, x0 + (1 << size_log2), task.y1}, frame});
+        const int x0 = cell % columns << size_log2, x1 = x0 + (1 << size_log2);
+        draw_light({bins, cell, {std::max(x0, part.x0), task.y0, x1, task.y1}, frame});
       }
       return;
     }
     const bool streaming = stream_few != stream_many && bins.few(task.cell) ? stream_few : stream_many;
-    draw_tile(TileTask{bins.triangles(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
-                       size_log2, frame, background, options.hierarchical_depth, streaming});
+    draw_tile(TileTask{bins.triangles(), &bins, task.cell, task.cell % columns << size_log2,
+                       task.row << size_log2, size_log2, part, options.hierarchical_depth, streaming});
   };
   const int count = static_cast<int>(tasks.size());
   const int at_once = tasks_at_once(count, execution.threads);
@@ -114,12 +117,12 @@ class TileBackend : public Backend {
   TileScratch scratch_;
 
  private:
-  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution) override = 0;
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  bool draws_depth_only() const final { return true; }
+  bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override = 0;
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) final {
     StoredTriangles stored(triangles);
-    draw_source(stored, frame, background, execution);  // always true: stored triangles are not copied
+    draw_source(stored, part, execution);  // always true: stored triangles are not copied
   }
 };
 

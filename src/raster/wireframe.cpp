@@ -91,13 +91,14 @@ PixelRange clip_to(PixelRange u, RowRange rows, std::int64_t n0, std::int64_t dv
 
 class Edges {
  public:
-  Edges(FrameView frame, RowRange rows) : frame_(frame), rows_(rows) {}
+  Edges(const FramePart& part, RowRange rows)
+      : frame_(part.frame), columns_{part.x0, part.frame.width}, rows_(rows) {}
 
   void draw(const ScreenTriangle& t) const {
     const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
     if (pixel_of(max_y) < rows_.begin || pixel_of(min_y) >= rows_.end) return;
     const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
-    if (pixel_of(max_x) < 0 || pixel_of(min_x) >= frame_.width || signed_area(t) == 0) return;
+    if (pixel_of(max_x) < columns_.begin || pixel_of(min_x) >= columns_.end || signed_area(t) == 0) return;
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
       draw_end(t, i);
@@ -119,15 +120,14 @@ class Edges {
 
   void draw_end(const ScreenTriangle& t, int i) const {
     const std::int32_t x = pixel_of(t.x_sub[i]), y = pixel_of(t.y_sub[i]);
-    if (x >= 0 && x < frame_.width && y >= rows_.begin && y < rows_.end)
+    if (x >= columns_.begin && x < columns_.end && y >= rows_.begin && y < rows_.end)
       test_and_write(x, y, t.z[i], t.payload);
   }
 
   template <bool kAlongX>
   void draw_between(Point a, Point b, std::uint32_t payload) const {
     if (a.u > b.u) std::swap(a, b);
-    const RowRange columns{0, frame_.width};
-    const RowRange along = kAlongX ? columns : rows_, across = kAlongX ? rows_ : columns;
+    const RowRange along = kAlongX ? columns_ : rows_, across = kAlongX ? rows_ : columns_;
     PixelRange range{std::max(first_sample(a.u), along.begin), std::min(first_sample(b.u), along.end)};
     if (range.begin >= range.end) return;
     const std::int64_t du = b.u - a.u, dv = b.v - a.v, dz = b.z - a.z;
@@ -144,21 +144,23 @@ class Edges {
   }
 
   FrameView frame_;
-  RowRange rows_;
+  RowRange columns_, rows_;
 };
 
 class Wireframe final : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
     // Several per thread, because edges are not evenly distributed.
     constexpr int kBandsPerThread = 4;
-    const int bands =
-        execution.threads == 1 ? 1 : std::min(execution.threads * kBandsPerThread, frame.height);
-    const auto row = [&](int band) { return static_cast<int>(std::int64_t{band} * frame.height / bands); };
+    const int height = part.frame.height - part.y0;
+    const int bands = execution.threads == 1 ? 1 : std::min(execution.threads * kBandsPerThread, height);
+    const auto row = [&](int band) {
+      return part.y0 + static_cast<int>(std::int64_t{band} * height / bands);
+    };
     parallel_for(execution.threads, bands, [&](int band) {
       const RowRange rows{row(band), row(band + 1)};
-      clear_rows(frame, rows, background);
-      const Edges edges(frame, rows);
+      clear_rows(part, rows);
+      const Edges edges(part, rows);
       for (const ScreenTriangle& triangle : triangles) edges.draw(triangle);
     });
   }

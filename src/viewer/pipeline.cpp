@@ -34,8 +34,7 @@ class Recorder final : public Backend {
   std::vector<ScreenTriangle> triangles;
 
  private:
-  void draw_checked(std::span<const ScreenTriangle> drawn, FrameView, std::uint32_t,
-                    const Execution&) override {
+  void draw_checked(std::span<const ScreenTriangle> drawn, const FramePart&, const Execution&) override {
     triangles.assign(drawn.begin(), drawn.end());
   }
 };

@@ -31,7 +31,7 @@ namespace edgewise::bench {
 namespace {
 
 class DrawsNothing : public Backend {
-  void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {}
+  void draw_checked(std::span<const ScreenTriangle>, const FramePart&, const Execution&) override {}
 };
 
 Row row_of(const BackendInfo& backend, const std::shared_ptr<Workload>& workload) {

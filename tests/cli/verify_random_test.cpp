@@ -167,18 +167,18 @@ using WritesBehindTheLastRow = testing::Spoiled<[](FrameView frame, auto...) {
 
 // Wrong in every frame, and used as the reference: only the oracle can find it.
 class WrongReference : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
     std::vector<ScreenTriangle> moved(triangles.begin(), triangles.end());
     for (ScreenTriangle& t : moved)
       for (std::int32_t& x : t.x_sub) x = std::max(x - 1, -contract::kGuardSub);
-    right_->draw(moved, frame, background, execution);
+    right_->draw(moved, part.frame, part.background, execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
 class Throws : public Backend {
-  void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {
+  void draw_checked(std::span<const ScreenTriangle>, const FramePart&, const Execution&) override {
     throw std::length_error("too much");
   }
 };

@@ -25,9 +25,9 @@ using OneBitOff =
 
 // Leaves the frame unchanged if there are no triangles.
 class ForgetsBackground : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
-    if (!triangles.empty()) right_->draw(triangles, frame, background, execution);
+    if (!triangles.empty()) right_->draw(triangles, part.frame, part.background, execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };

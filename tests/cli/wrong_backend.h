@@ -11,23 +11,22 @@ namespace edgewise::testing {
 // Draws the right picture, and then calls kSpoil(frame, background, execution).
 template <auto kSpoil>
 class Spoiled : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
-    right_->draw(triangles, frame, background, execution);
-    kSpoil(frame, background, execution);
+    right_->draw(triangles, part.frame, part.background, execution);
+    kSpoil(part.frame, part.background, execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
 // Wrong only if it draws from a source: it draws nothing.
 class IgnoresSources : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
-    right_->draw(triangles, frame, background, execution);
+    right_->draw(triangles, part.frame, part.background, execution);
   }
-  bool draw_source(TriangleSource&, FrameView frame, std::uint32_t background,
-                   const Execution& execution) override {
-    right_->draw(std::span<const ScreenTriangle>(), frame, background, execution);
+  bool draw_source(TriangleSource&, const FramePart& part, const Execution& execution) override {
+    right_->draw(std::span<const ScreenTriangle>(), part.frame, part.background, execution);
     return true;
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();

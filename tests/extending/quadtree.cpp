@@ -34,17 +34,22 @@ void draw_part(const Prepared& t, PixelBox part, FrameView frame) {
 }
 
 class Quadtree final : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution&) override {
-    for (int y = 0; y < frame.height; ++y) {
-      std::fill_n(frame.depth + y * frame.stride, frame.width, kDepthClear);
-      std::fill_n(frame.payload + y * frame.stride, frame.width, background);
+    const FrameView& frame = part.frame;
+    for (int y = part.y0; part.clear && y < frame.height; ++y) {
+      std::fill(frame.depth + y * frame.stride + part.x0, frame.depth + y * frame.stride + frame.width,
+                kDepthClear);
+      std::fill(frame.payload + y * frame.stride + part.x0, frame.payload + y * frame.stride + frame.width,
+                part.background);
     }
     for (const ScreenTriangle& triangle : triangles) {
       const Oriented t = orient(triangle);
       if (t.area == 0) continue;
-      draw_part({{make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)}, make_depth(t), triangle.payload},
-                pixel_box(triangle, frame.width, frame.height), frame);
+      PixelBox box = pixel_box(triangle, frame.width, frame.height);
+      box.x0 = std::max(box.x0, part.x0), box.y0 = std::max(box.y0, part.y0);
+      draw_part({{make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)}, make_depth(t), triangle.payload}, box,
+                frame);
     }
   }
 };

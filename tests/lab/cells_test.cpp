@@ -67,6 +67,38 @@ TEST(Cells, DrawTheSamePicturesOfHardTriangles) {
     }
 }
 
+TEST(Cells, DrawTheSamePicturesInTheSameRenderPasses) {
+  const auto naive = find_backend("naive").make();
+  std::size_t draws = 0;
+  for (const auto& [width, height] : {std::pair{97, 71}, {5, 40}, {200, 130}})
+    for (const auto family : testing::kFamilies) {
+      const auto triangles = testing::adversarial(family, 300, width, height, 8);
+      const std::span first = std::span(triangles).first(100), rest = std::span(triangles).subspan(100);
+      for (const PixelRect& scissor :
+           {PixelRect{}, {1, 2, 3, 35}, {37, 21, 50, 80}, {64, 32, 32, 33}, {-9, 63, 110, 1}}) {
+        const bool depth_only = draws++ % 3 == 0;
+        const auto draw_both = [&](Backend& backend, Framebuffer& frame, const Execution& execution) {
+          poison(frame);
+          FrameView view = frame.view();
+          if (depth_only) view.payload = nullptr;
+          backend.draw(first, view, kBackground, execution);
+          backend.draw(rest, view, {.clear = false, .scissor = scissor}, execution);
+          backend.draw(first, view, {.background = 1, .scissor = {50, 9, scissor.width, 7}}, execution);
+        };
+        Framebuffer expected(width, height), found(width, height);
+        draw_both(*naive, expected, {});
+        for (const Cell& cell : cells()) {
+          const auto backend = cell.backend.make();
+          for (const Execution& execution : executions(cell)) {
+            draw_both(*backend, found, execution);
+            expect_same(expected, found,
+                        std::string(family) + ", " + factors(cell) + ", " + testing::describe(execution));
+          }
+        }
+      }
+    }
+}
+
 // {bands, tiles} x {spans, edges} x {scalar, SIMD}, and of the SIMD tiles two more each.
 TEST(Cells, AreTwelve) {
   std::set<std::string> names;

@@ -22,9 +22,10 @@ enum class Mistake { samples_on_all_edges_are_inside, later_wins_a_tie, one_lane
 
 template <Mistake kMistake>
 class Mistaken : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
-    right_->draw({}, frame, background, execution);
+    const FrameView& frame = part.frame;
+    right_->draw({}, frame, part.background, execution);
     for (const ScreenTriangle& triangle : triangles) {
       const contract::Oriented t = contract::orient(triangle);
       if (t.area == 0) continue;

@@ -230,17 +230,37 @@ TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
                                 stream_to_clip(12'000, [](std::size_t) { return true; }),  // do not fit
                                 stream_to_clip(3, [](std::size_t) { return false; }), TriangleStream{},
                                 find_scene("cubes").make({})};
+  struct Way {
+    RenderPass pass;
+    bool depth_only = false;
+  };
+  const PixelRect part{33, 15, 70, 64}, outside{-9, -9, 5, 5};
+  const Way ways[] = {{{kBackground}},
+                      {{.clear = false}},
+                      {{.background = kBackground, .scissor = part}},
+                      {{.clear = false, .scissor = part}},
+                      {{.scissor = outside}},
+                      {{kBackground}, true}};
+  std::size_t draws = 0;
   Frontend plain, frontend;
+  const auto before = adversarial("uniform", 20, 150, 90, 3);
   for (const Drawable& drawable : drawables)
     for (const auto& how : testing::executions()) {
+      const Way& way = ways[draws++ % std::size(ways)];
       FrontendOptions options{.width = 150,
                               .height = 90,
                               .cull = how.execution.threads == 2 ? Cull::back : Cull::none,
                               .threads = 2};
       Framebuffer expected(150, 90), actual(150, 90);
-      backend_->draw(plain.run(drawable, options), expected.view(), kBackground, how.execution);
-      lab::poison(actual);
-      draw(drawable, frontend, options, *backend_, actual.view(), kBackground, how.execution);
+      const auto view = [&](Framebuffer& frame) {
+        lab::poison(frame);
+        FrameView prepared = frame.view();
+        if (way.depth_only) prepared.payload = nullptr;
+        if (!way.pass.clear) backend_->draw(before, prepared, kBackground, how.execution);
+        return prepared;
+      };
+      backend_->draw(plain.run(drawable, options), view(expected), way.pass, how.execution);
+      draw(drawable, frontend, options, *backend_, view(actual), way.pass, how.execution);
       const std::string what = std::to_string(&drawable - drawables) + ", " + testing::describe(how);
       testing::expect_same(expected, actual, what);
       EXPECT_TRUE(frontend.stats() == plain.stats()) << what;
@@ -260,8 +280,8 @@ TEST(StreamSource, CountsEachInputOnce) {
 
 TEST(StreamSource, MayBeUsedAgainAfterAnException) {
   class Throws : public Backend {
-    void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {}
-    bool draw_source(TriangleSource& source, FrameView, std::uint32_t, const Execution&) override {
+    void draw_checked(std::span<const ScreenTriangle>, const FramePart&, const Execution&) override {}
+    bool draw_source(TriangleSource& source, const FramePart&, const Execution&) override {
       source.make(0, 0, source.size());
       throw std::length_error("too much");
     }

@@ -18,6 +18,8 @@ TEST(Hash, IsXxh3OfTheStatedBytes) {
                                                        0,          1,          0xDEADBEEF, 13, 14};
   EXPECT_EQ(hash_of({depth.data(), payload.data(), 3, 2, kStride}), 0xA320EDBD0E0323D0u);
 
+  EXPECT_EQ(hash_of({depth.data(), nullptr, 3, 2, kStride}), 0xCC3FE9DA0A8DA77Bu) << "only depths";
+
   constexpr std::uint32_t kWidth = 300;
   std::vector<std::uint32_t> long_depth, long_payload;
   for (std::uint32_t i = 0; i < kWidth; ++i) {

@@ -46,11 +46,12 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
     streamed += task.streaming;
     ++drawn;
   };
-  const auto tiles_streamed = [&](TileStore store, int threads, std::size_t count_triangles = 400) {
+  const auto tiles_streamed = [&](TileStore store, int threads, std::size_t count_triangles = 400,
+                                  bool clear = true) {
     streamed = drawn = 0;
     TileScratch scratch;
     StoredTriangles first{std::span(triangles).first(count_triangles)};
-    draw_in_tiles(first, frame.view(), 0, {threads, 64, resolve(SimdTarget::best)},
+    draw_in_tiles(first, {.frame = frame.view(), .clear = clear}, {threads, 64, resolve(SimdTarget::best)},
                   {.coverage_masks = false, .tile_store = store}, scratch, count);
     return streamed.load();
   };
@@ -60,6 +61,7 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   EXPECT_GT(tiles_streamed(TileStore::streaming, 2), 0);
   EXPECT_EQ(streamed, drawn);
   EXPECT_GT(tiles_streamed(TileStore::automatic, 1), 0);
+  EXPECT_EQ(tiles_streamed(TileStore::automatic, 1, 400, false), 0) << "over what the frame holds";
   EXPECT_EQ(tiles_streamed(TileStore::automatic, 1, 30), 0) << "few triangles in each tile";
   EXPECT_GT(drawn, 0);
   EXPECT_LT(drawn, 16) << "empty tiles do not reach the kernel";
@@ -77,13 +79,39 @@ TEST(TileTasks, FillTheEmptyTilesOfARowTogether) {
     StoredTriangles stored({&corner, 1});
     FrameView view = frame.view();
     view.height = height;
-    draw_in_tiles(stored, view, 0, {2, 64, resolve(SimdTarget::best)}, {}, scratch, count);
+    draw_in_tiles(stored, {.frame = view}, {2, 64, resolve(SimdTarget::best)}, {}, scratch, count);
     return scratch.list.tasks().size();
   };
   const int tiles_with_triangles = 1;
   EXPECT_EQ(tasks(side), tiles_with_triangles + 16u) << "and one for the empty tiles of each row";
   EXPECT_EQ(drawn, tiles_with_triangles);
   EXPECT_EQ(tasks(64), tiles_with_triangles + 8u) << "a single row's empty tiles, by 8 px of height";
+}
+
+// Tiles of which the part holds a pixel have tasks. If nothing is cleared, only those with triangles have.
+TEST(TileTasks, AreThoseOfThePart) {
+  constexpr int kSide = contract::kMaxTile, kLeg = 2000 * contract::kSub;
+  const ScreenTriangle all_over{{0, kLeg, 0}, {0, 0, kLeg}, {9, 9, 9}, 5};
+  Framebuffer frame(5 * kSide, 5 * kSide);
+  const auto cells = [&](std::span<const ScreenTriangle> triangles, int x1, int y1, int x0, int y0,
+                         bool clear) {
+    FramePart part{.frame = frame.view(), .x0 = x0, .y0 = y0, .clear = clear};
+    part.frame.width = x1, part.frame.height = y1;
+    TileScratch scratch;
+    StoredTriangles stored(triangles);
+    draw_in_tiles(stored, part, {1, kSide, resolve(SimdTarget::best)}, {}, scratch, [](const TileTask&) {});
+    std::vector<int> list;
+    for (const TileList::Task& task : scratch.list.tasks()) list.push_back(task.cell);
+    return list;
+  };
+  constexpr int kClear = TileList::kClearTiles;
+  const std::span<const ScreenTriangle> none, one(&all_over, 1);
+  using Cells = std::vector<int>;
+  EXPECT_EQ(cells(one, 2 * kSide + 1, 2 * kSide, kSide - 1, kSide - 1, true), (Cells{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(cells(one, 2 * kSide, 2 * kSide + 1, kSide, kSide, true), (Cells{3, 5}));
+  EXPECT_EQ(cells(none, 2 * kSide, 2 * kSide + 1, kSide, kSide, true), (Cells{kClear, kClear}));
+  EXPECT_EQ(cells(one, 2 * kSide, 2 * kSide, 0, 0, false), (Cells{0, 1, 2, 3}));
+  EXPECT_EQ(cells(none, 2 * kSide, 2 * kSide, 0, 0, false), Cells{});
 }
 
 // About 4 strips per thread in all; a row has as many as its height and this allow, at least 8 px each.
@@ -96,7 +124,7 @@ TEST(TileTasks, FillEmptyTilesInEvenStrips) {
         const CellGrid grid{100, height, size_log2, size_log2};
         bins.build(std::span<const ScreenTriangle>(), grid, 1, resolve(SimdTarget::best),
                    Bins::Small::as_indices);
-        list.build(bins, grid, threads, [](int) { return false; });
+        list.build(bins, grid, {}, threads, [](int) { return false; });
         const std::string where = std::to_string(1 << size_log2) + " px, height " + std::to_string(height) +
                                   ", threads " + std::to_string(threads);
         int y = 0;
@@ -136,7 +164,7 @@ TEST(TileTasks, DrawEachTileOnceInFours) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
   TileScratch scratch;
   StoredTriangles stored({&all_over, 1});
-  draw_in_tiles(stored, frame.view(), 0, {2, 64, resolve(SimdTarget::best)}, {}, scratch,
+  draw_in_tiles(stored, {.frame = frame.view()}, {2, 64, resolve(SimdTarget::best)}, {}, scratch,
                 [&](const TileTask& task) {
                   while (task.cell == 0 && !met && std::chrono::steady_clock::now() < deadline)
                     met = drawn[1] > 0;
@@ -160,8 +188,8 @@ TEST(TileStore, FillsEveryEmptyTile) {
       lab::poison(frame);
       TileScratch scratch;
       StoredTriangles stored(triangles);
-      draw_in_tiles(stored, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store},
-                    scratch, tile_kernel(resolve(SimdTarget::best)));
+      draw_in_tiles(stored, {.frame = frame.view(), .background = 42}, {2, 64, resolve(SimdTarget::best)},
+                    {.tile_store = store}, scratch, tile_kernel(resolve(SimdTarget::best)));
       testing::expect_same(expected, frame, std::to_string(width) + " px wide");
     }
 }
@@ -201,7 +229,7 @@ TEST(LightTiles, AreDrawnLikeOthers) {
           lab::poison(frame);
           TileScratch scratch;
           StoredTriangles stored(triangles);
-          draw_in_tiles(stored, frame.view(), 42, {threads, size, target},
+          draw_in_tiles(stored, {.frame = frame.view(), .background = 42}, {threads, size, target},
                         {.coverage_masks = false, .tile_store = TileStore::cached}, scratch,
                         tile_kernel(target), span_kernel(target));
           testing::expect_same(expected, frame, testing::describe(Execution{threads, size, target}));
@@ -223,7 +251,7 @@ TEST(LightTiles, AreThoseOfFewTrianglesInCachedFrames) {
     FrameView view = frame.view();
     view.width = width;
     const SimdTarget target = resolve(SimdTarget::best);
-    draw_in_tiles(stored, view, 0, {1, kSize, target}, options, scratch, tile_kernel(target), kernel);
+    draw_in_tiles(stored, {.frame = view}, {1, kSize, target}, options, scratch, tile_kernel(target), kernel);
     return light_tiles(scratch.list, 1);
   };
   const BandKernel kernel = span_kernel(resolve(SimdTarget::best));
@@ -248,8 +276,8 @@ TEST(LightTiles, CountTheTrianglesOfAllSlices) {
     TileScratch scratch;
     StoredTriangles stored(triangles);
     const SimdTarget target = resolve(SimdTarget::best);
-    draw_in_tiles(stored, frame.view(), 42, {2, kSize, target}, {.tile_store = TileStore::cached}, scratch,
-                  tile_kernel(target), span_kernel(target));
+    draw_in_tiles(stored, {.frame = frame.view(), .background = 42}, {2, kSize, target},
+                  {.tile_store = TileStore::cached}, scratch, tile_kernel(target), span_kernel(target));
     testing::expect_same(expected, frame, std::to_string(in_tile));
     EXPECT_EQ(light_tiles(scratch.list, 1), in_tile == 2 ? 1 : 0);
   }

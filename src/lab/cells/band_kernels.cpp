@@ -76,7 +76,8 @@ inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, con
       const auto from_cell = static_cast<std::uint32_t>(at - (x & -kDepthCell));
       const V z = hn::Add(set(plane.in_cell(x, y) + from_cell * plane.zx), z_in_vector);
       // A moved vector may begin in the previous depth cell, whose pixels are drawn already.
-      const auto inside = hn::And(hn::Gt(outside, hn::Set(d, -1)), hn::Gt(lane, hn::Set(d, -1 - moved)));
+      const int begin = std::max(x, box.x0) - at;
+      const auto inside = hn::And(hn::Gt(outside, hn::Set(d, -1)), hn::Gt(lane, hn::Set(d, begin - 1)));
       write(row.depth + at, row.payload + at, inside, z, colour);
     }
   }

@@ -14,8 +14,8 @@ void draw_engine(EngineArithmetic arithmetic, std::span<const ScreenTriangle> tr
   Execution resolved = execution;
   resolved.target = resolve(execution.target);
   StoredTriangles stored(triangles);
-  draw_in_tiles(stored, frame, background, resolved, {.coverage_masks = false}, scratch,
-                engine_kernel(arithmetic, resolved.target));
+  draw_in_tiles(stored, {.frame = frame, .background = background}, resolved, {.coverage_masks = false},
+                scratch, engine_kernel(arithmetic, resolved.target));
 }
 
 namespace {

@@ -9,11 +9,9 @@ namespace {
 
 class TiledSpans final : public TileBackend {
   using TileBackend::TileBackend;
-  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution) override {
-    return draw_in_tiles(triangles, frame, background,
-                         {execution.threads, contract::kMaxTile, execution.target}, options_, scratch_,
-                         tiled_spans_kernel(execution.target));
+  bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
+    return draw_in_tiles(triangles, part, {execution.threads, contract::kMaxTile, execution.target}, options_,
+                         scratch_, tiled_spans_kernel(execution.target));
   }
 };
 

@@ -47,6 +47,11 @@ void walk_triangle(const TileTask& task, const ScreenTriangle& triangle, std::in
   });
 }
 
+void read_rows(const FramePlane& from, std::int32_t* buffer) {
+  for (int y = from.top; y < from.height; ++y)
+    std::copy(from.row(y) + from.left, from.row(y) + from.width, buffer + y * kMaxTile + from.left);
+}
+
 // Draws triangles and coverage masks into a tile, in the order of its calls.
 #if HWY_TARGET == HWY_SCALAR
 
@@ -54,6 +59,7 @@ class SpanPainter {
  public:
   explicit SpanPainter(const TileTask& task) : task_(task) {
     std::fill_n(depth_, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
+    read_tile(task, depth_, payload_, read_rows);
   }
   void draw(const Bins::Segment& segment) {
     for (const std::uint32_t index : segment.indices)
@@ -75,6 +81,7 @@ class SpanPainter {
   explicit SpanPainter(const TileTask& task)
       : task_(task), list_(tile_, task.hierarchical_depth), masks_(*task.bins, task.cell) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
+    read_tile(task, tile_.depth, tile_.payload, read_rows);
     tile_.hiz.clear(task.width(), task.height());
   }
   void draw(const Bins::Segment& segment) {
@@ -117,12 +124,15 @@ class SpanPainter {
 template <typename Pixels>
 void write_rows(const FramePlane& to, const Pixels& pixels) {
   write_to(to, [&](const auto& store) {
-    for (int y = 0; y < to.height; ++y) {
+    for (int y = to.top; y < to.height; ++y) {
       std::int32_t* const row = to.row(y);
-      int x = 0;
+      int x = to.left;
+      const auto one_by_one = [&](int end) {
+        for (; x < end; ++x) row[x] = hn::GetLane(pixels(hn::CappedTag<std::int32_t, 1>{}, y * kMaxTile + x));
+      };
+      one_by_one(std::min((x + kLanes - 1) & -kLanes, to.width));
       for (; x + kLanes <= to.width; x += kLanes) store(pixels(D{}, y * kMaxTile + x), row + x);
-      for (; x < to.width; ++x)
-        row[x] = hn::GetLane(pixels(hn::CappedTag<std::int32_t, 1>{}, y * kMaxTile + x));
+      one_by_one(to.width);
     }
   });
 }

@@ -70,8 +70,7 @@ HWY_INLINE void write(std::int32_t* depth, std::int32_t* payload, hn::Mask<D> co
 #endif
 }
 
-// The vector of pixels that holds pixel x, moved left if it would leave the area, whose right end is `right`:
-// another thread may be drawing beside it.
+// The vector of pixels that holds pixel x, moved left if it would pass the area's right end.
 HWY_INLINE int vector_at(int x, int right) {
   return std::min(x, right - kLanes);
 }
@@ -165,10 +164,10 @@ struct BoxLanes {
   V32 x0, x1, y0, y1;
 };
 HWY_INLINE BoxLanes box_lanes(const BandTask& task, const TriangleLanes& t) {
-  const auto [x0, x1] = sample_range(t.x, 0, task.area.x1);
+  const auto [x0, x1] = sample_range(t.x, task.area.x0, task.area.x1 - task.area.x0);
   const auto [y0, y1] = sample_range(t.y, task.area.y0, task.area.y1 - task.area.y0);
-  const V32 top = set32(task.area.y0);
-  return {x0, x1, hn::Add(y0, top), hn::Add(y1, top)};
+  const V32 left = set32(task.area.x0), top = set32(task.area.y0);
+  return {hn::Add(x0, left), hn::Add(x1, left), hn::Add(y0, top), hn::Add(y1, top)};
 }
 // The bits of a mask of 32-bit lanes, of which the lower one of each pair counts.
 HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {

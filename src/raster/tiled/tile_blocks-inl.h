@@ -135,25 +135,56 @@ HWY_INLINE void two_rows_of_blocks(const Pixels& pixels, int from, V& upper, V& 
 }
 #endif
 
-// The part of a tile that is stored to the frame in whole vectors, two rows at a time. The rest is copied
-// without a test for background, so the tile's payload must be cleared where `all` is false.
+// The part of a tile that is stored to the frame in whole vectors, two rows at a time: nothing if columns at
+// the left or rows at the top are not drawn. The rest is copied without a test for background, so the tile's
+// payload must be cleared where `all` is false.
 struct InVectors {
   int width = 0, height = 0;  // px
   bool all;
-  InVectors(int tile_width, int tile_height) {
-    if (kLanes > 1) width = tile_width & -kLanes, height = tile_height & -2;
+  explicit InVectors(const TileTask& task)
+      : InVectors(task.left(), task.top(), task.width(), task.height()) {}
+  InVectors(int left, int top, int tile_width, int tile_height) {
+    if (kLanes > 1 && left == 0 && top == 0) width = tile_width & -kLanes, height = tile_height & -2;
     all = width == tile_width && height == tile_height;
   }
 };
+
+// The index of a pixel in a plane of the tile's buffer.
+HWY_INLINE int at_pixel(int x, int y) {
+  return y / kBlockSide * kMaxBlocks * kBlockPixels + x / kBlockSide * kBlockPixels +
+         y % kBlockSide * kBlockSide + x % kBlockSide;
+}
+
+// Calls copy(pixels, in_buffer, count) for the pixels of a row from column x on, block by block: the first of
+// `count` in the frame, and its index in the buffer.
+template <typename Copy>
+HWY_INLINE void for_each_block_of_row(const FramePlane& plane, int x, int y, Copy&& copy) {
+  for (int end; x < plane.width; x = end) {
+    end = std::min((x | (kBlockSide - 1)) + 1, plane.width);
+    copy(plane.row(y) + x, at_pixel(x, y), end - x);
+  }
+}
+// Copies up to kBlockSide pixels.
+HWY_INLINE void copy_pixels(std::int32_t* to, const std::int32_t* from, int count) {
+  if (count == kBlockSide)
+    std::memcpy(to, from, kBlockSide * sizeof *to);  // a constant size needs no call
+  else
+    std::memcpy(to, from, static_cast<std::size_t>(count) * sizeof *to);
+}
+
+// Loads blocks from rows.
+inline void read_blocks(const FramePlane& from, std::int32_t* buffer) {
+  for (int y = from.top; y < from.height; ++y)
+    for_each_block_of_row(from, from.left, y, [&](const std::int32_t* pixels, int in_buffer, int count) {
+      copy_pixels(buffer + in_buffer, pixels, count);
+    });
+}
 
 // Stores blocks as rows. Each row is written to its end before the next: processors fetch neighbouring cache
 // lines together, and lines of several rows often compete for the same cache sets.
 template <typename Pixels>
 void write_blocks(const FramePlane& to, const Pixels& pixels) {
-  const auto at_pixel = [](int x, int y) {
-    return y / kBlockSide * kMaxBlocks * kBlockPixels + y % kBlockSide * kBlockSide + x * kBlockSide;
-  };
-  const InVectors in_vectors(to.width, to.height);
+  const InVectors in_vectors(to.left, to.top, to.width, to.height);
 #if HWY_TARGET != HWY_SCALAR
   constexpr int kWhole = kMaxTile / kLanes;
   write_to(to, [&](const auto& store) {
@@ -171,10 +202,11 @@ void write_blocks(const FramePlane& to, const Pixels& pixels) {
       to.width == kMaxTile ? write_two_rows(y, kWhole) : write_two_rows(y, to.width / kLanes);
   });
 #endif
-  for (int y = 0; y < to.height; ++y)
-    for (int x = y < in_vectors.height ? in_vectors.width : 0; x < to.width; x += kBlockSide)
-      std::memcpy(to.row(y) + x, pixels.buffer + at_pixel(x, y),
-                  sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlockSide, to.width - x)));
+  for (int y = to.top; y < to.height; ++y)
+    for_each_block_of_row(to, y < in_vectors.height ? in_vectors.width : to.left, y,
+                          [&](std::int32_t* row, int in_buffer, int count) {
+                            copy_pixels(row, pixels.buffer + in_buffer, count);
+                          });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -106,7 +106,9 @@ void draw_tile_in(const TileTask& task) {
         hn::Store(hn::Set(D{}, wrap(value)), D{}, plane + y * kMaxTile + i);
   };
   clear(tile.depth(), kDepthClear);
-  if (!InVectors(task.width(), task.height()).all) clear(tile.payload(), task.background);
+  if (!InVectors(task).all) clear(tile.payload(), task.part.background);
+  read_tile(task, tile.depth(), tile.payload(),
+            [](const FramePlane& from, std::int32_t* buffer) { read_blocks(from, buffer); });
   tile.hiz.clear(task.width(), task.height());
 
   TilePainter<Arithmetic> painter(task, tile);

@@ -46,7 +46,7 @@ template <class Arithmetic>
 bool set_up_one(const TileTask& task, std::uint32_t index, Batch<Arithmetic>& out, int k) {
   const ScreenTriangle& triangle = task.triangles[index];
   const int size = task.size();
-  const PixelBox box = pixel_box(triangle, task.frame.width, task.frame.height);
+  const PixelBox box = pixel_box(triangle, task.part.frame.width, task.part.frame.height);
   const int x0 = std::max(box.x0 - task.x0, 0), x1 = std::min(box.x1 - task.x0, size);
   const int y0 = std::max(box.y0 - task.y0, 0), y1 = std::min(box.y1 - task.y0, size);
   if (x0 >= x1 || y0 >= y1) return false;

@@ -10,10 +10,8 @@ namespace {
 
 class Tiled final : public TileBackend {
   using TileBackend::TileBackend;
-  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution) override {
-    return draw_in_tiles(triangles, frame, background, execution, options_, scratch_,
-                         tile_kernel(execution.target),
+  bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
+    return draw_in_tiles(triangles, part, execution, options_, scratch_, tile_kernel(execution.target),
                          options_.light_tiles ? span_kernel(execution.target) : nullptr);
   }
 };
