@@ -172,7 +172,7 @@ class WrongReference : public Backend {
     std::vector<ScreenTriangle> moved(triangles.begin(), triangles.end());
     for (ScreenTriangle& t : moved)
       for (std::int32_t& x : t.x_sub) x = std::max(x - 1, -contract::kGuardSub);
-    right_->draw(moved, part.frame, part.background, execution);
+    right_->draw(moved, part.frame, testing::pass_of(part), execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };

@@ -27,7 +27,7 @@ using OneBitOff =
 class ForgetsBackground : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
-    if (!triangles.empty()) right_->draw(triangles, part.frame, part.background, execution);
+    if (!triangles.empty()) right_->draw(triangles, part.frame, testing::pass_of(part), execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };

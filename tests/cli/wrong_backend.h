@@ -8,12 +8,17 @@
 
 namespace edgewise::testing {
 
+// The pass in which another backend draws the part.
+inline RenderPass pass_of(const FramePart& part) {
+  return {part.background, part.clear, {part.x0, part.y0}};
+}
+
 // Draws the right picture, and then calls kSpoil(frame, background, execution).
 template <auto kSpoil>
 class Spoiled : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
-    right_->draw(triangles, part.frame, part.background, execution);
+    right_->draw(triangles, part.frame, pass_of(part), execution);
     kSpoil(part.frame, part.background, execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
@@ -23,10 +28,10 @@ class Spoiled : public Backend {
 class IgnoresSources : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
-    right_->draw(triangles, part.frame, part.background, execution);
+    right_->draw(triangles, part.frame, pass_of(part), execution);
   }
   bool draw_source(TriangleSource&, const FramePart& part, const Execution& execution) override {
-    right_->draw(std::span<const ScreenTriangle>(), part.frame, part.background, execution);
+    right_->draw(std::span<const ScreenTriangle>(), part.frame, pass_of(part), execution);
     return true;
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();

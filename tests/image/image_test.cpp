@@ -211,6 +211,9 @@ TEST(Frame, DepthBecomesZeroToOneWithoutThePadding) {
     }
   EXPECT_EQ(to_depth_map(frame).depth01, (std::vector<float>{0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 0.5f}));
   EXPECT_EQ(to_image(frame).pixels, (std::vector<std::uint32_t>{0, 1, 2, 10, 11, 12}));
+  FrameView depth_only = frame.view();
+  depth_only.payload = nullptr;
+  EXPECT_THROW(to_image(depth_only), std::invalid_argument);
 }
 
 // ---- Differences

@@ -44,17 +44,33 @@ lab::GuardedFrame::Layout random_layout(Random& random, int width) {
   return {padding, static_cast<int>(random.below(16))};
 }
 
-enum class Output { frame, whole_frame, frontend_list };
+enum class Output { frame, frame_in_parts, whole_frame, frontend_list };
 
-// One thing that is compared: a frame drawn from screen triangles, or by draw(drawable, …), which includes
-// the front end, or the front end's list.
+// One thing that is compared: a frame drawn from screen triangles, at once or in parts, or by
+// draw(drawable, …), which includes the front end, or the front end's list.
 struct Probe {
   Output output;
   std::size_t backend = 0;  // index
   lab::DrawOptions how;
   lab::GuardedFrame::Layout layout = {};
   bool by_oracle = false;
+  // Of a frame in parts: the corner of its four parts, px, and how many triangles each part's first draw has.
+  int corner_x = 0, corner_y = 0;
+  std::size_t in_first_draw = 0;
 };
+
+// Draws four parts of a frame, each in two draws. The picture is that of one draw.
+void draw_in_parts(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame,
+                   std::uint32_t background, const Probe& probe) {
+  const std::size_t cut = std::min(probe.in_first_draw, triangles.size());
+  const int x = probe.corner_x, y = probe.corner_y;
+  for (const PixelRect& part :
+       {PixelRect{.width = x, .height = y}, {.x = x, .height = y}, {.y = y, .width = x}, {.x = x, .y = y}}) {
+    const Execution& execution = probe.how.execution;
+    backend.draw(triangles.first(cut), frame, {.background = background, .scissor = part}, execution);
+    backend.draw(triangles.subspan(cut), frame, {.clear = false, .scissor = part}, execution);
+  }
+}
 
 // The triangles after writing and reading them as a stream, which rounds depths to floats.
 std::vector<ScreenTriangle> replayed(const Case& c) {
@@ -91,6 +107,10 @@ class Checker {
           if (random.below(2) == 0)
             probe.how.tiles = lab::kTileOptions[random.below(lab::kTileOptions.size())];
           probe.layout = random_layout(random, c.width);
+          probe.corner_x = static_cast<int>(random.below(static_cast<std::uint64_t>(c.width) + 1));
+          probe.corner_y = static_cast<int>(random.below(static_cast<std::uint64_t>(c.height) + 1));
+          probe.in_first_draw = random.below(triangles.size() + 1);
+          if (random.below(8) == 0) probe.output = Output::frame_in_parts;
           if (c.drawable && random.below(is_stream ? 2 : 16) == 0) probe.output = Output::whole_frame;
           check_frame(c, probe, triangles, expected);
         }
@@ -160,6 +180,8 @@ class Checker {
       options.threads = probe.how.execution.threads;
       options.target = probe.how.execution.target;
       draw(*c.drawable, candidate_, options, backend, frame.view(), c.background, probe.how.execution);
+    } else if (probe.output == Output::frame_in_parts) {
+      draw_in_parts(backend, triangles, frame.view(), c.background, probe);
     } else {
       backend.draw(triangles, frame.view(), c.background, probe.how.execution);
     }
@@ -215,10 +237,11 @@ class Checker {
         std::find(explained_.begin(), explained_.end(), versus) != explained_.end())
       return;
     explained_.push_back(versus);
-    std::string text =
-        fmt::format("case {} ({}): {} ({}{}) differs from {} in {}\n", c.number, c.family, name,
-                    tools::describe(probe.how), probe.output == Output::whole_frame ? ", whole frame" : "",
-                    judge, difference);
+    const std::string_view drawn = probe.output == Output::whole_frame      ? ", whole frame"
+                                   : probe.output == Output::frame_in_parts ? ", in parts"
+                                                                            : "";
+    std::string text = fmt::format("case {} ({}): {} ({}{}) differs from {} in {}\n", c.number, c.family,
+                                   name, tools::describe(probe.how), drawn, judge, difference);
     if (!plan_.failure_folder.empty()) {
       const std::string file = fmt::format("seed-{}-case-{}-{}.tri", plan_.seed, c.number, versus);
       Report not_counted;  // another checker, because this one's buffers are in use
@@ -240,14 +263,15 @@ class Checker {
       return other;
     };
     const std::vector<ScreenTriangle> all(triangles.begin(), triangles.end());
-    if (probe.output == Output::whole_frame) {
-      // Blames the whole frame only if the front end's triangles, drawn from memory, show no difference.
-      Probe from_memory = probe;
-      from_memory.output = Output::frame;
-      if (differs(with_list(all), from_memory)) probe = from_memory;
+    if (probe.output == Output::whole_frame || probe.output == Output::frame_in_parts) {
+      // Blames the front end or the parts only if the same triangles, drawn at once from memory, show no
+      // difference.
+      Probe at_once = probe;
+      at_once.output = Output::frame;
+      if (differs(with_list(all), at_once)) probe = at_once;
     }
     TriangleStream stream;
-    if (probe.output == Output::frame) {
+    if (probe.output == Output::frame || probe.output == Output::frame_in_parts) {
       const auto fails = [&](const auto& list) { return differs(with_list(list), probe); };
       const auto again = replayed(with_list(all));
       stream = lab::to_stream(reduced(fails(again) ? again : all, fails), c.width, c.height);
