@@ -207,6 +207,7 @@ TEST(RandomFindings, NameThePixelAndTheFewestTriangles) {
       "  1 of its triangles show it: .*\n"
       "  reproduce: edgewise verify --random --seed 8 --case \\1\n");
   for (const std::string& finding : report.findings) {
+    if (finding.find(", in parts)") != std::string::npos) continue;  // several wrong draws
     std::smatch found;
     ASSERT_TRUE(std::regex_match(finding, found, pattern)) << finding;
     EXPECT_EQ(std::stoul(found[2], nullptr, 16) ^ std::stoul(found[4], nullptr, 16), 1u);
@@ -273,6 +274,25 @@ TEST(RandomFindings, IncludeAWrongWholeFrame) {
   plan.failure_folder = folder.path() / "failures";
   const std::string finding = finding_with(plan, ", whole frame) differs from scanline");
   EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u) << finding;
+}
+
+// Wrong only if it draws over what the frame holds: it clears.
+class AlwaysClears : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
+                    const Execution& execution) override {
+    RenderPass pass = testing::pass_of(part);
+    pass.clear = true;
+    right_->draw(triangles, part.frame, pass, execution);
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+TEST(RandomFindings, IncludeAWrongFrameInParts) {
+  const TempDir folder;
+  Plan plan = plan_with<AlwaysClears>(15, 60);
+  plan.failure_folder = folder.path() / "failures";
+  const std::string finding = finding_with(plan, ", in parts) differs from scanline");
+  EXPECT_LE(read_tri(file_of(finding)).triangles.size(), 1u) << "0 show it unless the background is 0";
 }
 
 TEST(RandomFindings, AreKeptIfNoFileCanBeWritten) {
