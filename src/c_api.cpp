@@ -1,5 +1,6 @@
 // The C interface (edgewise.h). No exception leaves it.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <glm/gtc/type_ptr.hpp>
@@ -51,6 +52,8 @@ edgewise_status status_of(F&& f) noexcept {
     return EDGEWISE_OK;
   } catch (const std::bad_alloc&) {
     return failed(EDGEWISE_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::length_error&) {  // of a vector, or of the tiles' lists
+    return failed(EDGEWISE_OUT_OF_MEMORY, "too many elements");
   } catch (const std::invalid_argument& error) {
     return failed(EDGEWISE_INVALID_ARGUMENT, error.what());
   } catch (const std::exception& error) {
@@ -100,8 +103,8 @@ FrameView view_of(const edgewise_frame& frame) {
 }
 
 FrontendOptions frontend_options(const edgewise_options& options, const edgewise_frame& frame) {
-  constexpr Cull kCull[] = {Cull::none, Cull::back, Cull::front};
-  if (options.cull < EDGEWISE_CULL_NONE || options.cull > EDGEWISE_CULL_FRONT)
+  constexpr Cull kCull[] = {Cull::none, Cull::back, Cull::front, Cull::both};
+  if (options.cull < EDGEWISE_CULL_NONE || options.cull > EDGEWISE_CULL_BOTH)
     throw std::invalid_argument("cull is not a value of edgewise_cull");
   FrontendOptions o;
   o.width = frame.width, o.height = frame.height;
@@ -122,8 +125,8 @@ const char* edgewise_error(void) {
   return last_error.c_str();
 }
 
-edgewise_scene* edgewise_new_scene(void) {
-  return new (std::nothrow) edgewise_scene{Scene{}};
+edgewise_status edgewise_new_scene(edgewise_scene** scene) {
+  return status_of([&] { given(scene, "scene") = new edgewise_scene{Scene{}}; });
 }
 
 edgewise_status edgewise_new_stream(const edgewise_stream_triangle* triangles, size_t count,
@@ -188,7 +191,13 @@ edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, co
 }
 
 edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction[3]) {
-  return status_of([&] { meshes_of(scene).to_light = glm::make_vec3(&given(direction, "direction")); });
+  return status_of([&] {
+    const glm::dvec3 towards = glm::make_vec3(&given(direction, "direction"));
+    const double largest = std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)});
+    if (!(largest > 0.0 && std::isfinite(glm::dot(towards / largest, glm::dvec3(1.0)))))
+      throw std::invalid_argument("the direction towards the light must be finite and not 0");
+    meshes_of(scene).to_light = towards / largest;
+  });
 }
 
 edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16],
@@ -197,7 +206,11 @@ edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16]
 }
 
 edgewise_status edgewise_frame_scene(edgewise_scene* scene, double aspect) {
-  return status_of([&] { frame_camera(meshes_of(scene), aspect); });
+  return status_of([&] {
+    if (!(aspect > 0.0 && std::isfinite(aspect)))
+      throw std::invalid_argument("aspect must be finite and above 0");
+    frame_camera(meshes_of(scene), aspect);
+  });
 }
 
 edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z,
@@ -245,6 +258,7 @@ edgewise_options edgewise_default_options(void) {
   edgewise_options options{};
   options.threads = 1;
   options.background = 0xFF000000;
+  options.scissor[2] = options.scissor[3] = contract::kMaxImageSide;
   return options;
 }
 
@@ -252,9 +266,8 @@ edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene*
                               const edgewise_options* options, edgewise_frame frame) {
   return status_of([&] {
     const edgewise_options o = options != nullptr ? *options : edgewise_default_options();
-    RenderPass pass{.background = o.background, .clear = o.keep == 0};
     const auto& [x, y, width, height] = o.scissor;
-    if (x != 0 || y != 0 || width != 0 || height != 0) pass.scissor = {x, y, width, height};
+    const RenderPass pass{o.background, o.keep == 0, {x, y, width, height}};
     edgewise_renderer& r = given(renderer, "renderer");
     draw(given(scene, "scene").drawable, r.frontend, frontend_options(o, frame), *r.backend, view_of(frame),
          pass, {.threads = o.threads});
@@ -264,10 +277,11 @@ edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene*
 edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity,
                                            size_t* count) {
   return status_of([&] {
+    if (capacity != 0) given(visible, "visible");
+    size_t& found = given(count, "count");
     const auto all = visible_triangles(view_of(ids));
-    given(count, "count") = all.size();
-    const std::size_t fit = std::min(capacity, all.size());
-    if (fit != 0) std::copy_n(all.begin(), fit, &given(visible, "visible"));
+    std::copy_n(all.begin(), std::min(capacity, all.size()), visible);
+    found = all.size();
   });
 }
 
@@ -295,6 +309,8 @@ edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewis
                  {uv, uv_stride, distance, distance_stride});
   });
 }
+
+static_assert(EDGEWISE_DEPTH_CLEAR == contract::kDepthClear);
 
 double edgewise_depth01(uint32_t depth) {
   return contract::depth01(depth);

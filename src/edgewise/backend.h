@@ -33,8 +33,8 @@ struct Execution {
   SimdTarget target = SimdTarget::best;
 };
 
-// Columns x … x + width - 1 and rows y … y + height - 1. It may lie partly or wholly outside of a frame. By
-// default it holds every frame.
+// Columns x … x + width - 1 and rows y … y + height - 1. It may lie partly or wholly outside of a frame. The
+// default covers any frame.
 struct PixelRect {
   int x = 0, y = 0;                                                       // px
   int width = contract::kMaxImageSide, height = contract::kMaxImageSide;  // px, at least 0
@@ -53,7 +53,7 @@ struct RenderPass {
   PixelRect scissor{};
 };
 
-// The part of a frame that a backend draws: the scissor's, which is not empty.
+// The intersection of frame and scissor, which a backend draws. It is not empty.
 struct FramePart {
   FrameView frame;     // ends at the scissor's right and lower sides
   int x0 = 0, y0 = 0;  // px, the first column and row
@@ -96,7 +96,7 @@ class Backend {
  private:
   friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
                    Backend& backend, FrameView frame, const RenderPass& pass, const Execution& execution);
-  // Whether frames may lack a payload plane. Otherwise the backend gets one that nobody reads.
+  // Whether frames may lack a payload plane. Otherwise the backend gets a scratch plane.
   virtual bool draws_depth_only() const { return false; }
   // Draws the triangles of a source. Returns false if it cannot, before it writes to the frame; then
   // draw_checked() is called. Arguments are as there.

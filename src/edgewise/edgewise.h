@@ -11,10 +11,12 @@
  * - Frames are the caller's memory. Everything else is copied, so no array needs to outlive its call.
  *
  * Errors: functions return a status, and then edgewise_error() tells what was wrong, in the calling thread. A
- * failed call changes nothing, unless it is a draw that ran out of memory, which leaves its frame undefined.
+ * failed call changes nothing, except that edgewise_draw() and edgewise_barycentrics() may leave the caller's
+ * planes undefined.
  *
  * Threads: two threads may use two objects at once. Several may draw one scene at once, each with a renderer
- * and a frame of its own, while none changes it.
+ * and a frame of its own, while none changes it. Two must not draw into one frame, not even into different
+ * parts of it.
  *
  * Pictures are the same, bit for bit, on every machine, for every backend and number of threads. */
 #ifndef EDGEWISE_EDGEWISE_H
@@ -47,8 +49,8 @@ const char* edgewise_error(void);
 /* A scene: meshes, their instances, a camera and a light; or a stream of triangles that are on the screen. */
 typedef struct edgewise_scene edgewise_scene;
 
-/* A scene without meshes. Its camera is at the origin. Null if memory runs out. */
-edgewise_scene* edgewise_new_scene(void);
+/* A scene without meshes. Its camera is at the origin. */
+edgewise_status edgewise_new_scene(edgewise_scene** scene);
 /* Null is allowed. */
 void edgewise_free_scene(edgewise_scene* scene);
 
@@ -72,10 +74,10 @@ edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* me
  * unless null, gets the instance's number. */
 edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16],
                                       size_t* index);
-/* Moves an instance. */
+/* Moves an instance. Null is an error. */
 edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, const double matrix[16]);
 
-/* The direction towards the light; any length but 0. */
+/* The direction towards the light; finite, and of any length but 0. */
 edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction[3]);
 
 /* The camera by its matrices: clip = projection * view * world. Draws fail for matrices that camera.h
@@ -95,11 +97,11 @@ edgewise_status edgewise_orthographic(double left, double right, double bottom, 
  * COLMAP. */
 edgewise_status edgewise_intrinsics(const double k[9], int width, int height, double first_centre,
                                     double near_z, double far_z, double projection[16]);
-/* Turns a projection into another clip space into one into ours, in place. Each flag is 0 or 1: z from -w to
- * w (OpenGL), y down (Vulkan), near where z is largest (reversed depth). */
+/* Converts a projection for another clip space to ours, in place. Flags are 0 or not: z from -w to w
+ * (OpenGL), y down (Vulkan), near where z is largest (reversed depth). */
 edgewise_status edgewise_convert_projection(int z_from_minus_w, int y_down, int reversed,
                                             double projection[16]);
-/* A camera that sees the whole scene, for images whose width is `aspect` times their height. */
+/* A camera that sees the whole scene, for images whose width is `aspect` times their height, above 0. */
 edgewise_status edgewise_frame_scene(edgewise_scene* scene, double aspect);
 
 /* A stream: triangles that are already on the screen. Its functions are edgewise_draw() and
@@ -127,41 +129,51 @@ typedef struct edgewise_frame {
   ptrdiff_t stride;  /* px, at least width */
 } edgewise_frame;
 
-typedef enum edgewise_cull { EDGEWISE_CULL_NONE, EDGEWISE_CULL_BACK, EDGEWISE_CULL_FRONT } edgewise_cull;
+/* The depth of a pixel that no triangle covers; all others are smaller. */
+#define EDGEWISE_DEPTH_CLEAR 0x7FFFFFFFu
+
+typedef enum edgewise_cull {
+  EDGEWISE_CULL_NONE,
+  EDGEWISE_CULL_BACK,
+  EDGEWISE_CULL_FRONT,
+  EDGEWISE_CULL_BOTH
+} edgewise_cull;
 
 typedef struct edgewise_options {
   edgewise_cull cull;
-  int ids;     /* if not 0, payloads are ids: numbers of triangles, counted through the instances in order */
+  int ids; /* if not 0, payloads are ids: a triangle's number in its scene, through the instances in order */
   int unlit;   /* if not 0, colours are not multiplied by the light */
   int threads; /* 1 ... 256 */
-  int keep;    /* if not 0, draws over what earlier draws left in the frame, as if they were one draw */
-  uint32_t background; /* the payload where no triangle is visible; without `keep` only */
-  int scissor[4]; /* x, y, width, height: draws only these pixels, and leaves the others; all 0: the whole
-                     frame */
+  int keep;    /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */
+  uint32_t background; /* the payload where no triangle is visible, unless `keep` */
+  int scissor[4]; /* x, y, width, height: the only pixels that are drawn; the others keep what they hold */
 } edgewise_options;
 
-/* No culling, lit colours, one thread, black background. */
+/* No culling, lit colours, one thread, a frame that is cleared to black, no scissor. */
 edgewise_options edgewise_default_options(void);
 
-/* Draws a frame. `options` may be null: the default. */
+/* Draws a frame. `options` may be null: the default. With `keep`, draws add up as if they were one, but ids
+ * begin at 0 in each scene. */
 edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene,
                               const edgewise_options* options, edgewise_frame frame);
 
-/* What a frame of ids shows. Background is where depth is that of an empty frame. */
+/* What a frame of ids shows. All pixels of the frame count, so after a draw with a scissor, pass that part of
+ * it. */
 /* The ids of visible triangles, ascending: writes the first `capacity`, and to `count` how many there are. */
 edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity,
                                            size_t* count);
-/* The number of pixels of each triangle, by id. `triangles`: how many the scene has; a larger id is an error.
+/* The number of pixels of each triangle, by id. `triangles`: how many the scene has; all ids must be below.
  */
 edgewise_status edgewise_pixels_per_triangle(edgewise_frame ids, uint32_t* pixels, size_t triangles);
-/* Whether a box in world space could be seen in front of what the frame shows; 0 is certain, 1 is not. The
- * frame needs no payload. */
+/* Whether a box in world space could be seen in front of what the frame shows. 0: it is certainly hidden. 1:
+ * it may be visible. The frame needs no payload. */
 edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double low[3], const double high[3],
                                      edgewise_frame depth, int* is_visible);
-/* Perspective-correct barycentric coordinates of the second and third vertex, u and v, by pixel: u, v >= 0, u
- * + v <= 1, errors below 2^-24; 0 on background. `distance`, unless null: along the view direction, with a
- * relative error below 2^-23; infinite on background. Strides are in floats, from row to row. `ids` is a
- * frame that was drawn with the same scene and options, and with ids. */
+/* Perspective-correct barycentric coordinates of the second and third vertex, u and v, by pixel; 0 on
+ * background. u, v and 1 - u - v are >= 0, with errors below 2^-24. `distance`, unless null, is along the
+ * view direction, with a relative error below 2^-23; in streams and parallel projections, it is the depth in
+ * 0 ... 1; infinite on background. Strides are in floats, from row to row. `ids` must show this scene, drawn
+ * with these options and ids; the scissor does not count. */
 edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride);

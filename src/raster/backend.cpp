@@ -49,7 +49,8 @@ void throw_if_of_another_size(const char* what, int width, int height, const Fra
 FramePart Backend::with_payload(FramePart part) {
   FrameView& frame = part.frame;
   if (frame.payload == nullptr && !draws_depth_only()) {
-    const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
+    const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height - 1) +
+                        static_cast<std::size_t>(frame.width);
     if (unread_payload_.size() < pixels) unread_payload_.resize(pixels);
     frame.payload = unread_payload_.data();
   }

@@ -16,7 +16,7 @@ struct RowRange {
   int begin, end;
 };
 
-// Clears rows of a part, unless it is drawn over what it holds.
+// Clears rows of a part, unless part.clear is false.
 inline void clear_rows(const FramePart& part, RowRange rows) {
   if (!part.clear) return;
   const FrameView& frame = part.frame;

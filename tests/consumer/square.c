@@ -1,4 +1,4 @@
-/* Draws two overlapping squares from a copy of the C interface, and prints the picture's hash; square.cpp draws the same. */
+/* Draws two overlapping squares by the C interface, and prints the picture's hash; square.cpp draws the same. */
 #include <edgewise/edgewise.h>
 
 #include <inttypes.h>
@@ -21,14 +21,14 @@ int main(void) {
   const double view[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1};
   const double moved[16] = {1, 0, .5, 0, .25, 1, 0, 0, 0, 0, 1, 0, .5, .25, -1, 1};
   double projection[16];
-  edgewise_scene* const scene = edgewise_new_scene();
+  edgewise_scene* scene = NULL;
   edgewise_renderer* renderer = NULL;
   edgewise_options options = edgewise_default_options();
   options.threads = 2;
   const edgewise_frame frame = {depth, payload, kWidth, kHeight, kStride};
   size_t square;
   uint64_t hash;
-  if (scene == NULL || edgewise_abi() != EDGEWISE_ABI || check(edgewise_add_mesh(scene, &mesh, &square)) ||
+  if (edgewise_abi() != EDGEWISE_ABI || check(edgewise_new_scene(&scene)) || check(edgewise_add_mesh(scene, &mesh, &square)) ||
       check(edgewise_add_instance(scene, square, NULL, NULL)) ||
       check(edgewise_add_instance(scene, square, moved, NULL)) ||
       check(edgewise_perspective(1.0, (double)kWidth / kHeight, .1, INFINITY, projection)) ||
@@ -38,6 +38,6 @@ int main(void) {
   printf("%016" PRIx64 "\n", hash);
   edgewise_free_renderer(renderer);
   edgewise_free_scene(scene);
-  /* An error is a status and a text, and null handles are no crash. */
+  /* An error is a status and a text; a null handle is an error. */
   return edgewise_draw(NULL, NULL, NULL, frame) == EDGEWISE_INVALID_ARGUMENT && edgewise_error()[0] != '\0' ? 0 : 1;
 }

@@ -202,6 +202,7 @@ void write_blocks(const FramePlane& to, const Pixels& pixels) {
       to.width == kMaxTile ? write_two_rows(y, kWhole) : write_two_rows(y, to.width / kLanes);
   });
 #endif
+  if (in_vectors.all) return;
   for (int y = to.top; y < to.height; ++y)
     for_each_block_of_row(to, y < in_vectors.height ? in_vectors.width : to.left, y,
                           [&](std::int32_t* row, int in_buffer, int count) {
