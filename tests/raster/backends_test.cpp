@@ -241,7 +241,7 @@ TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
                       {{.clear = false, .scissor = part}},
                       {{.scissor = outside}},
                       {{kBackground}, true}};
-  std::size_t first = 0;  // so that every drawable is drawn in every way
+  std::size_t first = 0;  // each drawable begins with another way
   Frontend plain, frontend;
   const auto before = adversarial("uniform", 20, 150, 90, 3);
   for (const Drawable& drawable : drawables)

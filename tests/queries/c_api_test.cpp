@@ -1,0 +1,244 @@
+// The C interface: each function does what its C++ counterpart does, and errors are told.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "edgewise/backend.h"
+#include "edgewise/barycentrics.h"
+#include "edgewise/contract.h"
+#include "edgewise/edgewise.h"
+#include "edgewise/frontend.h"
+#include "edgewise/hash.h"
+#include "edgewise/visible.h"
+
+namespace edgewise {
+namespace {
+
+constexpr int kWidth = 70, kHeight = 50, kStride = 77;
+const glm::dmat4 kMatrix(1, 0.1, 0.2, 0, 0.3, 1.2, 0.1, 0, -0.2, 0.1, 0.9, 0, 0.4, -0.3, -0.5, 1);
+const glm::dmat4 kView(1, 0, 0.1, 0, 0, 1, 0, 0, -0.1, 0, 1, 0, 0.1, 0.2, -3, 1);
+
+struct Planes {
+  std::vector<std::uint32_t> depth = std::vector<std::uint32_t>(kStride * kHeight, 7), payload = depth;
+  edgewise_frame c() { return {depth.data(), payload.data(), kWidth, kHeight, kStride}; }
+  FrameView view() { return {depth.data(), payload.data(), kWidth, kHeight, kStride}; }
+  bool operator==(const Planes&) const = default;
+};
+
+// A scene of two instances of a mesh, both ways.
+struct Both {
+  Both() {
+    // Vertices 20 bytes apart, triangles 16.
+    const float positions[] = {-1, -1, 0, 9, 9, -1, 1, 0.2f, 9, 9, 1, 1, 0, 9, 9, 1, -1, -0.5f, 9, 9};
+    const std::uint32_t triangles[] = {0, 1, 2, 99, 0, 2, 3, 99, 0, 3, 1, 99};
+    const std::uint32_t colours[] = {0xFF112233, 0xFF445566, 0xFF778899};
+    edgewise_mesh mesh{};
+    mesh.positions = positions, mesh.vertex_count = 4, mesh.position_stride = 20;
+    mesh.triangles = triangles, mesh.triangle_count = 3, mesh.triangle_stride = 16;
+    mesh.colours = colours, mesh.two_sided = 1;
+    EXPECT_EQ(edgewise_new_scene(&c), EDGEWISE_OK);
+    std::size_t index = 9;
+    EXPECT_EQ(edgewise_add_mesh(c, &mesh, &index), EDGEWISE_OK);
+    EXPECT_EQ(index, 0u);
+    EXPECT_EQ(edgewise_add_instance(c, 0, nullptr, &index), EDGEWISE_OK);
+    EXPECT_EQ(edgewise_add_instance(c, 0, nullptr, &index), EDGEWISE_OK);
+    EXPECT_EQ(index, 1u);
+    EXPECT_EQ(edgewise_set_instance(c, 1, glm::value_ptr(kMatrix)), EDGEWISE_OK);
+    const double light[] = {-0.5, 0.25, 1};
+    EXPECT_EQ(edgewise_set_light(c, light), EDGEWISE_OK);
+    scene.meshes.push_back({.positions = {{-1, -1, 0}, {-1, 1, 0.2f}, {1, 1, 0}, {1, -1, -0.5f}},
+                            .triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}},
+                            .colours = {colours, colours + 3},
+                            .flags = {kTwoSided, kTwoSided, kTwoSided}});
+    scene.instances = {Instance{}, Instance{.matrix = kMatrix}};
+    scene.to_light = {-0.5f, 0.25f, 1};
+  }
+  ~Both() { edgewise_free_scene(c); }
+  Both(const Both&) = delete;
+
+  void set_camera(const glm::dmat4& view, const glm::dmat4& projection) {
+    EXPECT_EQ(edgewise_set_camera(c, glm::value_ptr(view), glm::value_ptr(projection)), EDGEWISE_OK);
+    scene.matrices = {view, projection};
+  }
+
+  edgewise_scene* c = nullptr;
+  Scene scene;
+};
+
+struct Renderer {
+  explicit Renderer(const char* backend) { EXPECT_EQ(edgewise_new_renderer(backend, &c), EDGEWISE_OK); }
+  ~Renderer() { edgewise_free_renderer(c); }
+  Renderer(const Renderer&) = delete;
+  edgewise_renderer* c = nullptr;
+};
+
+TEST(CInterface, ProjectsAsCameraHSays) {
+  double made[16];
+  const auto expect = [&](edgewise_status status, const glm::dmat4& expected) {
+    EXPECT_EQ(status, EDGEWISE_OK);
+    EXPECT_EQ(glm::make_mat4(made), expected);
+  };
+  expect(edgewise_perspective(1.1, 1.4, 0.3, 8, made), perspective_projection(1.1, 1.4, 0.3, 8));
+  expect(edgewise_orthographic(-1, 2, -3, 4, 5, 6, made), orthographic_projection(-1, 2, -3, 4, 5, 6));
+  const double k[] = {500, 3, 320, 0, 400, 200, 0, 0, 1};  // by rows
+  expect(edgewise_intrinsics(k, 640, 480, 0.5, 0.1, 9, made),
+         intrinsics_projection(glm::dmat3(500, 0, 0, 3, 400, 0, 320, 200, 1), 640, 480, 0.5, 0.1, 9));
+  for (const int flags : {0, 1, 2, 4}) {
+    const glm::dmat4 from = perspective_projection(1.1, 1.4, 0.3, 8);
+    std::copy_n(glm::value_ptr(from), 16, made);
+    expect(edgewise_convert_projection(flags & 1, flags & 2, flags & 4, made),
+           projection_from({(flags & 1) != 0, (flags & 2) != 0, (flags & 4) != 0}, from));
+  }
+}
+
+TEST(CInterface, DrawsTheSamePictures) {
+  Both both;
+  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
+  const Renderer renderer("scanline");
+  for (int trial = 0; trial < 64; ++trial) {
+    edgewise_options options = edgewise_default_options();
+    options.cull = static_cast<edgewise_cull>(trial % 4);
+    options.ids = trial & 4, options.unlit = trial & 8, options.keep = trial & 16;
+    options.threads = 1 + trial % 3, options.background = 0xFF000001u + static_cast<std::uint32_t>(trial);
+    const int scissor[] = {5, 9, 40, 21};
+    if ((trial & 32) != 0) std::copy_n(scissor, 4, options.scissor);
+    constexpr Cull kCull[] = {Cull::none, Cull::back, Cull::front, Cull::both};
+    FrontendOptions o{
+        .width = kWidth, .height = kHeight, .cull = kCull[trial % 4], .shade = options.unlit == 0};
+    o.payload = options.ids != 0 ? Payload::id : Payload::colour;
+    RenderPass pass{options.background, options.keep == 0};
+    if ((trial & 32) != 0) pass.scissor = {5, 9, 40, 21};
+    Planes actual, expected;
+    EXPECT_EQ(edgewise_draw(renderer.c, both.c, &options, actual.c()), EDGEWISE_OK) << edgewise_error();
+    Frontend frontend;
+    draw(both.scene, frontend, o, *find_backend("naive").make(), expected.view(), pass, {});
+    EXPECT_EQ(actual, expected) << trial;
+    std::uint64_t hash = 0;
+    EXPECT_EQ(edgewise_hash(actual.c(), &hash), EDGEWISE_OK);
+    EXPECT_EQ(hash, hash_of(ConstFrameView(expected.view())));
+  }
+}
+
+TEST(CInterface, DrawsStreamsAndFramedScenes) {
+  const edgewise_stream_triangle triangle{{{3, 4, 0.5f}, {60, 9, 0.25f}, {20, 45, 0.75f}}, 0xFF123456};
+  edgewise_scene* stream = nullptr;
+  ASSERT_EQ(edgewise_new_stream(&triangle, 1, &stream), EDGEWISE_OK);
+  const Renderer renderer(nullptr);
+  Frontend frontend;
+  const auto expect = [&](edgewise_scene* c, const Drawable& drawable) {
+    Planes actual, expected;
+    EXPECT_EQ(edgewise_draw(renderer.c, c, nullptr, actual.c()), EDGEWISE_OK) << edgewise_error();
+    draw(drawable, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
+         *find_backend("naive").make(), expected.view(), 0xFF000000u, {});
+    EXPECT_EQ(actual, expected);
+    edgewise_frame depth_only = actual.c();
+    depth_only.payload = nullptr;
+    std::fill(actual.depth.begin(), actual.depth.end(), 7u);
+    EXPECT_EQ(edgewise_draw(renderer.c, c, nullptr, depth_only), EDGEWISE_OK);
+    EXPECT_EQ(actual.depth, expected.depth);
+  };
+  expect(stream,
+         TriangleStream{.triangles = {{{{3, 4, 0.5f}, {60, 9, 0.25f}, {20, 45, 0.75f}}, 0xFF123456}}});
+  EXPECT_EQ(edgewise_set_camera(stream, glm::value_ptr(kView), glm::value_ptr(kView)),
+            EDGEWISE_INVALID_ARGUMENT);
+  edgewise_free_scene(stream);
+  Both both;
+  EXPECT_EQ(edgewise_frame_scene(both.c, 1.4), EDGEWISE_OK);
+  frame_camera(both.scene, 1.4);
+  expect(both.c, both.scene);
+}
+
+TEST(CInterface, TellsWhatIsSeen) {
+  Both both;
+  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
+  const Renderer renderer("tiled");
+  edgewise_options options = edgewise_default_options();
+  options.ids = 1;
+  Planes frame;
+  ASSERT_EQ(edgewise_draw(renderer.c, both.c, &options, frame.c()), EDGEWISE_OK);
+  const auto expected = visible_triangles(frame.view());
+  ASSERT_GE(expected.size(), 3u);
+  std::vector<std::uint32_t> ids(2);
+  std::size_t count = 0;
+  EXPECT_EQ(edgewise_visible_triangles(frame.c(), ids.data(), 2, &count), EDGEWISE_OK);
+  EXPECT_EQ(count, expected.size());
+  EXPECT_TRUE(std::equal(ids.begin(), ids.end(), expected.begin()));
+  std::vector<std::uint32_t> pixels(6);
+  EXPECT_EQ(edgewise_pixels_per_triangle(frame.c(), pixels.data(), 6), EDGEWISE_OK);
+  EXPECT_EQ(pixels, pixels_per_triangle(frame.view(), 6));
+
+  std::vector<float> uv(2 * kWidth * kHeight), distance(kWidth * kHeight), uv2 = uv, distance2 = distance;
+  EXPECT_EQ(
+      edgewise_barycentrics(both.c, &options, frame.c(), uv.data(), 2 * kWidth, distance.data(), kWidth),
+      EDGEWISE_OK)
+      << edgewise_error();
+  FrontendOptions o{.width = kWidth, .height = kHeight, .cull = Cull::none};
+  o.payload = Payload::id;
+  barycentrics(frame.view(), both.scene, o, {uv2.data(), 2 * kWidth, distance2.data(), kWidth});
+  EXPECT_EQ(uv, uv2), EXPECT_EQ(distance, distance2);
+
+  for (const double z : {-0.1, -40.0}) {
+    const double low[] = {-0.1, -0.1, z}, high[] = {0.1, 0.1, z + 0.05};
+    int seen = 9;
+    EXPECT_EQ(edgewise_box_visible(both.c, low, high, frame.c(), &seen), EDGEWISE_OK);
+    EXPECT_EQ(seen != 0,
+              visible(Bounds{glm::make_vec3(low), glm::make_vec3(high)}, both.scene, frame.view()));
+  }
+  EXPECT_EQ(edgewise_depth01(contract::kDepthHead + 12345), contract::depth01(contract::kDepthHead + 12345));
+}
+
+TEST(CInterface, TellsErrorsAndChangesNothing) {
+  Both both;
+  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
+  const Renderer renderer("tiled");
+  const Planes before;
+  Planes frame;
+  const auto fails = [&](edgewise_status status, const std::string& text) {
+    EXPECT_EQ(status, EDGEWISE_INVALID_ARGUMENT) << text;
+    EXPECT_NE(std::string(edgewise_error()).find(text), std::string::npos) << edgewise_error();
+    EXPECT_EQ(frame, before);
+  };
+  edgewise_options options = edgewise_default_options();
+  options.threads = 0;
+  fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "0 threads");
+  options = edgewise_default_options(), options.cull = static_cast<edgewise_cull>(4);
+  fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "edgewise_cull");
+  options = edgewise_default_options(), options.scissor[2] = -1;
+  fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "negative");
+  fails(edgewise_draw(nullptr, both.c, nullptr, frame.c()), "renderer is null");
+  fails(edgewise_draw(renderer.c, nullptr, nullptr, frame.c()), "scene is null");
+  fails(edgewise_draw(renderer.c, both.c, nullptr, {nullptr, nullptr, kWidth, kHeight, kWidth}), "frame of");
+  fails(edgewise_add_instance(both.c, 1, nullptr, nullptr), "mesh 1 of 1");
+  fails(edgewise_set_instance(both.c, 2, glm::value_ptr(kMatrix)), "instance 2 of 2");
+  fails(edgewise_set_instance(both.c, 1, nullptr), "matrix is null");
+  for (const double wrong : {0.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    const double light[] = {wrong, 0, 0};
+    fails(edgewise_set_light(both.c, light), "light");
+    fails(edgewise_frame_scene(both.c, wrong), "aspect");
+  }
+  const std::uint32_t indices[] = {0, 1, 4};
+  const float positions[12] = {};
+  edgewise_mesh mesh{};
+  mesh.positions = positions, mesh.vertex_count = 4, mesh.triangles = indices, mesh.triangle_count = 1;
+  fails(edgewise_add_mesh(both.c, &mesh, nullptr), "triangle 0 names vertex 4 of 4");
+  mesh.position_stride = 8;
+  fails(edgewise_add_mesh(both.c, &mesh, nullptr), "stride of 8 bytes is below 12");
+  mesh.positions = nullptr;
+  fails(edgewise_add_mesh(both.c, &mesh, nullptr), "positions is null");
+  std::size_t count = 77;
+  fails(edgewise_visible_triangles(frame.c(), nullptr, 1, &count), "visible is null");
+  EXPECT_EQ(count, 77u);
+  edgewise_renderer* none = nullptr;
+  fails(edgewise_new_renderer("tilde", &none), "tiled");
+  EXPECT_EQ(none, nullptr);
+  mesh.positions = positions, mesh.position_stride = 0, mesh.triangle_count = std::size_t{1} << 61;
+  EXPECT_EQ(edgewise_add_mesh(both.c, &mesh, nullptr), EDGEWISE_OUT_OF_MEMORY);
+}
+
+}  // namespace
+}  // namespace edgewise
