@@ -105,7 +105,7 @@ FrameView view_of(const edgewise_frame& frame) {
 FrontendOptions frontend_options(const edgewise_options& options, const edgewise_frame& frame) {
   constexpr Cull kCull[] = {Cull::none, Cull::back, Cull::front, Cull::both};
   if (options.cull < EDGEWISE_CULL_NONE || options.cull > EDGEWISE_CULL_BOTH)
-    throw std::invalid_argument("cull is not a value of edgewise_cull");
+    throw std::invalid_argument("cull is none of EDGEWISE_CULL_NONE to EDGEWISE_CULL_BOTH");
   FrontendOptions o;
   o.width = frame.width, o.height = frame.height;
   o.cull = kCull[options.cull];

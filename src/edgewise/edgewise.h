@@ -132,16 +132,11 @@ typedef struct edgewise_frame {
 /* The depth of a pixel that no triangle covers; all others are smaller. */
 #define EDGEWISE_DEPTH_CLEAR 0x7FFFFFFFu
 
-typedef enum edgewise_cull {
-  EDGEWISE_CULL_NONE,
-  EDGEWISE_CULL_BACK,
-  EDGEWISE_CULL_FRONT,
-  EDGEWISE_CULL_BOTH
-} edgewise_cull;
+enum { EDGEWISE_CULL_NONE, EDGEWISE_CULL_BACK, EDGEWISE_CULL_FRONT, EDGEWISE_CULL_BOTH };
 
 typedef struct edgewise_options {
-  edgewise_cull cull;
-  int ids; /* if not 0, payloads are ids: a triangle's number in its scene, through the instances in order */
+  int cull; /* EDGEWISE_CULL_NONE ... EDGEWISE_CULL_BOTH: which triangles to drop for their facing */
+  int ids;  /* if not 0, payloads are ids: a triangle's number in its scene, through the instances in order */
   int unlit;   /* if not 0, colours are not multiplied by the light */
   int threads; /* 1 ... 256 */
   int keep;    /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */

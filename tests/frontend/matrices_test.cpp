@@ -221,7 +221,6 @@ TEST(Matrices, DropNothingThatIsFarAwayButInFrontOfAnInfiniteFarPlane) {
     mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2), mesh.colours.push_back(0);
   }
   scene.instances.emplace_back();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   scene.matrices = {glm::dmat4(1.0), perspective_projection(1.0, 640.0 / 360, 0.1, kInfinity)};
   Scene product = scene;
   // No usual perspective: its view is not affine.

@@ -102,7 +102,7 @@ TEST(CInterface, DrawsTheSamePictures) {
   const Renderer renderer("scanline");
   for (int trial = 0; trial < 64; ++trial) {
     edgewise_options options = edgewise_default_options();
-    options.cull = static_cast<edgewise_cull>(trial % 4);
+    options.cull = trial % 4;
     options.ids = trial & 4, options.unlit = trial & 8, options.keep = trial & 16;
     options.threads = 1 + trial % 3, options.background = 0xFF000001u + static_cast<std::uint32_t>(trial);
     const int scissor[] = {5, 9, 40, 21};
@@ -180,7 +180,8 @@ TEST(CInterface, TellsWhatIsSeen) {
   FrontendOptions o{.width = kWidth, .height = kHeight, .cull = Cull::none};
   o.payload = Payload::id;
   barycentrics(frame.view(), both.scene, o, {uv2.data(), 2 * kWidth, distance2.data(), kWidth});
-  EXPECT_EQ(uv, uv2), EXPECT_EQ(distance, distance2);
+  EXPECT_EQ(uv, uv2);
+  EXPECT_EQ(distance, distance2);
 
   for (const double z : {-0.1, -40.0}) {
     const double low[] = {-0.1, -0.1, z}, high[] = {0.1, 0.1, z + 0.05};
@@ -206,8 +207,8 @@ TEST(CInterface, TellsErrorsAndChangesNothing) {
   edgewise_options options = edgewise_default_options();
   options.threads = 0;
   fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "0 threads");
-  options = edgewise_default_options(), options.cull = static_cast<edgewise_cull>(4);
-  fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "edgewise_cull");
+  options = edgewise_default_options(), options.cull = 4;
+  fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "EDGEWISE_CULL_BOTH");
   options = edgewise_default_options(), options.scissor[2] = -1;
   fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "negative");
   fails(edgewise_draw(nullptr, both.c, nullptr, frame.c()), "renderer is null");
