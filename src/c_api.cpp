@@ -19,6 +19,7 @@
 #include "edgewise/hash.h"
 #include "edgewise/scene.h"
 #include "edgewise/visible.h"
+#include "frontend/submission.h"
 #include "raster/checks.h"
 
 using namespace edgewise;
@@ -150,12 +151,7 @@ edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* me
     Mesh made{.positions = copied<glm::vec3>(m.positions, m.vertex_count, m.position_stride, "positions"),
               .triangles = copied<glm::uvec3>(m.triangles, m.triangle_count, m.triangle_stride, "triangles"),
               .colours = {}};
-    for (std::size_t i = 0; i < made.triangles.size(); ++i)
-      for (int k = 0; k < 3; ++k)
-        if (made.triangles[i][k] >= m.vertex_count)
-          throw std::invalid_argument("triangle " + std::to_string(i) + " names vertex " +
-                                      std::to_string(made.triangles[i][k]) + " of " +
-                                      std::to_string(m.vertex_count));
+    check_vertices(made);
     if (m.colours != nullptr)
       made.colours.assign(m.colours, m.colours + m.triangle_count);
     else

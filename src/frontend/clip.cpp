@@ -83,7 +83,7 @@ std::span<const ClipVertex> Clipper::clip(const ClipVertex (&triangle)[3], std::
 }
 
 std::array<double, 3> Clipper::weights(int id) const {
-  if (id < 3) return {id == 0 ? 1.0 : 0.0, id == 1 ? 1.0 : 0.0, id == 2 ? 1.0 : 0.0};
+  if (id < 3) return weights_of_corner(id);
   const Cut& c = cuts_[static_cast<std::size_t>(id - 3)];
   std::array<double, 3> sum = weights(c.inside);
   const std::array<double, 3> outside = weights(c.outside);

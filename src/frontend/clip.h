@@ -48,6 +48,11 @@ enum Outside : std::uint16_t {
 // The flags of a vertex; kNotFinite alone if a coordinate is NaN or infinite.
 std::uint16_t outside_of(const ClipVertex& v, const ViewVolume& view);
 
+// Of the triangle's vertices in vertex `k`: 1 of itself.
+inline std::array<double, 3> weights_of_corner(int k) {
+  return {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+}
+
 // Clips triangles against the near, far and guard planes.
 class Clipper {
  public:

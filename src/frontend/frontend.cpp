@@ -12,10 +12,10 @@
 #include <string>
 
 #include "edgewise/contract.h"
-#include "edgewise/limits.h"
 #include "frontend/in_order.h"
 #include "frontend/scene_maker.h"
 #include "frontend/stream_source.h"
+#include "frontend/submission.h"
 #include "frontend/tasks.h"
 
 namespace edgewise {
@@ -23,20 +23,6 @@ namespace edgewise {
 namespace {
 
 constexpr Cull kCullModes[] = {Cull::none, Cull::back, Cull::front, Cull::both};
-
-const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
-  if (instance.mesh >= scene.meshes.size())
-    throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +
-                                std::to_string(scene.meshes.size()));
-  return scene.meshes[instance.mesh];
-}
-
-std::size_t checked_count(std::size_t triangles) {
-  if (triangles > kMaxTriangles)
-    throw std::invalid_argument(std::to_string(triangles) + " triangles are more than " +
-                                std::to_string(kMaxTriangles));
-  return triangles;
-}
 
 std::size_t submitted(const Drawable& drawable) {
   if (const auto* stream = std::get_if<TriangleStream>(&drawable)) return stream->triangles.size();
@@ -95,9 +81,7 @@ struct Frontend::State {
       if (side < 1 || side > contract::kMaxImageSide)
         throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
                                     std::to_string(contract::kMaxImageSide));
-    if (o.threads < 1 || o.threads > kMaxThreads)
-      throw std::invalid_argument(std::to_string(o.threads) + " threads are outside 1 to " +
-                                  std::to_string(kMaxThreads));
+    check_threads(o.threads);
     options = o;
     options.target = resolve(o.target);
   }

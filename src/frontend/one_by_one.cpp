@@ -20,11 +20,6 @@ UnsnappedTriangle triangle_of(const Unsnapped& a, const Unsnapped& b, const Unsn
   return {{a.x_px, b.x_px, c.x_px}, {a.y_px, b.y_px, c.y_px}, {a.z01, b.z01, c.z01}};
 }
 
-// Vertex k of the source triangle.
-SourceVertex as_source(double z, double w, int k) {
-  return {z, w, {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}};
-}
-
 // True, and counted, if the triangle is not finite or lies beyond one side of the view.
 bool drop(const Vertex& a, const Vertex& b, const Vertex& c, FrontendStats& stats) {
   if ((a.outside | b.outside | c.outside) & kNotFinite) {
@@ -187,7 +182,7 @@ struct MeshGeometry {
   }
   SourceVertex source(int k) const {
     const double w = double{transform(task.to_screen, position(k)).z};
-    return as_source(task.to_screen.has_z ? clip_vertex(k).z : w, w, k);
+    return {task.to_screen.has_z ? clip_vertex(k).z : w, w, weights_of_corner(k)};
   }
 };
 
@@ -205,7 +200,7 @@ struct StreamGeometry {
     const glm::vec3 v = triangle.vertex[k];
     return {v.x, v.y, v.z};
   }
-  SourceVertex source(int k) const { return as_source(double{triangle.vertex[k].z}, 1.0, k); }
+  SourceVertex source(int k) const { return {double{triangle.vertex[k].z}, 1.0, weights_of_corner(k)}; }
   Vertex vertex(int k) const {
     const std::uint32_t outside = outside_of(clip_vertex(k), view);
     const glm::vec3 v = triangle.vertex[k];

@@ -12,9 +12,7 @@ void check(const Mesh& mesh) {
   if (mesh.colours.size() != mesh.triangles.size())
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
                                 std::to_string(mesh.colours.size()) + " colours");
-  if (!mesh.flags.empty() && mesh.flags.size() != mesh.triangles.size())
-    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
-                                std::to_string(mesh.flags.size()) + " flags");
+  check_flags(mesh);
   if (!mesh.flags.empty() && mesh.has_flag(0, kSameFace))
     throw std::invalid_argument("a mesh's first triangle has kSameFace");
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.triangles.size())
@@ -23,15 +21,6 @@ void check(const Mesh& mesh) {
   if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
                                 " clusters instead of " + std::to_string(cluster_count(mesh)));
-}
-
-void throw_if_vertex_missing(const Mesh& mesh) {
-  const auto largest = [](glm::uvec3 t) { return std::max({t.x, t.y, t.z}); };
-  const auto bad = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),
-                                [&](glm::uvec3 t) { return largest(t) >= mesh.positions.size(); });
-  if (bad == mesh.triangles.end()) return;
-  throw std::invalid_argument("triangle " + std::to_string(bad - mesh.triangles.begin()) + " names vertex " +
-                              std::to_string(largest(*bad)) + " of " + std::to_string(mesh.positions.size()));
 }
 
 }  // namespace
@@ -64,11 +53,6 @@ void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options,
     w.instance = ~std::size_t{0};
     w.window.reserve(most_vertices);
   }
-}
-
-std::size_t SceneMaker::instance_of(std::size_t triangle) const {
-  const auto after = std::upper_bound(first_ids_.begin(), first_ids_.end(), triangle);
-  return static_cast<std::size_t>(after - first_ids_.begin()) - 1;
 }
 
 void SceneMaker::start_instance(Worker& w, std::size_t instance) {
@@ -158,7 +142,7 @@ void SceneMaker::end_frame(FrontendStats& stats) {
       find_sight(workers_[0]);
     }
     stats.meshes_culled += sights_[i] != in_sight;
-    if (vertex_missing_ && sights_[i] == in_sight) throw_if_vertex_missing(mesh);
+    if (vertex_missing_ && sights_[i] == in_sight) check_vertices(mesh);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "frontend/mesh_clusters.h"
 #include "frontend/shade.h"
+#include "frontend/submission.h"
 #include "frontend/tasks.h"
 #include "frontend/transform.h"
 #include "frontend/vertex_window.h"
@@ -27,7 +28,7 @@ class SceneMaker {
   template <typename Flush>
   void make(int worker, std::size_t begin, std::size_t end, ChunkOutput& out, Flush&& flush) {
     Worker& w = workers_[static_cast<std::size_t>(worker)];
-    for (std::size_t instance = instance_of(begin); begin < end; ++instance) {
+    for (std::size_t instance = instance_of(first_ids_, begin); begin < end; ++instance) {
       const std::size_t first = first_ids_[instance], last = std::min(end, first_ids_[instance + 1]);
       if (begin == last) continue;
       if (w.instance != instance) start_instance(w, instance);
@@ -58,7 +59,6 @@ class SceneMaker {
   };
 
   const Mesh& mesh_of(std::size_t instance) const { return scene_->meshes[scene_->instances[instance].mesh]; }
-  std::size_t instance_of(std::size_t triangle) const;
   void start_instance(Worker& w, std::size_t instance);
   // Makes or drops triangles from `begin` on. Returns the first one left.
   std::size_t make_some(Worker& w, std::size_t begin, std::size_t end, ChunkOutput& out);

@@ -14,9 +14,9 @@
 
 #include "core/parallel.h"
 #include "edgewise/contract.h"
-#include "edgewise/limits.h"
 #include "edgewise/visible.h"
 #include "frontend/fixed.h"
+#include "frontend/submission.h"
 #include "frontend/tasks.h"
 #include "frontend/transform.h"
 #include "queries/checks.h"
@@ -92,16 +92,10 @@ class Triangles {
     view_.emplace(*scene_, options.width, options.height);
     w_is_distance_ = view_->axis == glm::dvec3(0.0);
     first_ids_ = first_ids(*scene_);
-    count_ = first_ids_.back();
-    if (count_ > kMaxTriangles)
-      throw std::invalid_argument(std::to_string(count_) + " triangles are more than " +
-                                  std::to_string(kMaxTriangles));
+    count_ = checked_count(first_ids_.back());
     for (const Instance& instance : scene_->instances) {
       check(instance);
-      const Mesh& mesh = scene_->meshes[instance.mesh];
-      if (!mesh.flags.empty() && mesh.flags.size() != mesh.triangles.size())
-        throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) +
-                                    " triangles and " + std::to_string(mesh.flags.size()) + " flags");
+      check_flags(scene_->meshes[instance.mesh]);
     }
   }
   std::size_t count() const { return count_; }
@@ -141,8 +135,7 @@ class Triangles {
       add_one(task, triangle, corners, out_);
     }
     void start_instance_of(std::uint32_t id) {
-      const auto after = std::upper_bound(all_.first_ids_.begin(), all_.first_ids_.end(), id);
-      const auto index = static_cast<std::size_t>(after - all_.first_ids_.begin()) - 1;
+      const std::size_t index = instance_of(all_.first_ids_, id);
       const Scene& scene = *all_.scene_;
       const Instance& instance = scene.instances[index];
       task_.emplace(MeshTask{.options = all_.options_,
@@ -209,9 +202,7 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
                                 std::to_string(ids.width) + " x " + std::to_string(ids.height) + " px");
   if (options.payload != Payload::id)
     throw std::invalid_argument("barycentric coordinates need a frame of ids: Payload::id");
-  if (options.threads < 1 || options.threads > kMaxThreads)
-    throw std::invalid_argument(std::to_string(options.threads) + " threads are outside 1 to " +
-                                std::to_string(kMaxThreads));
+  check_threads(options.threads);
   if (out.uv == nullptr && out.distance == nullptr)
     throw std::invalid_argument("barycentric coordinates need memory to write to: both planes are null");
   if ((out.uv != nullptr && out.uv_stride < 2 * ids.width) ||

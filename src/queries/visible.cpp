@@ -11,6 +11,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 #include "frontend/fixed.h"
+#include "frontend/submission.h"
 #include "frontend/view.h"
 #include "queries/checks.h"
 
@@ -45,8 +46,7 @@ void for_each_run_of_instance(const ConstFrameView& ids, const Scene& scene, Vis
   const std::vector<std::size_t> first = first_ids(scene);
   for_each_run(ids, [&](std::uint32_t id, std::uint32_t pixels) {
     throw_if_missing(id, first.back());
-    const auto after = std::upper_bound(first.begin(), first.end(), id);
-    visit(static_cast<std::size_t>(after - first.begin()) - 1, pixels);
+    visit(instance_of(first, id), pixels);
   });
 }
 
@@ -79,12 +79,8 @@ std::vector<std::uint32_t> pixels_per_triangle(const ConstFrameView& ids, std::s
 
 std::vector<std::size_t> first_ids(const Scene& scene) {
   std::vector<std::size_t> first{0};
-  for (const Instance& instance : scene.instances) {
-    if (instance.mesh >= scene.meshes.size())
-      throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +
-                                  std::to_string(scene.meshes.size()));
-    first.push_back(first.back() + scene.meshes[instance.mesh].triangles.size());
-  }
+  for (const Instance& instance : scene.instances)
+    first.push_back(first.back() + mesh_of(scene, instance).triangles.size());
   return first;
 }
 

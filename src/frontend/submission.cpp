@@ -1,0 +1,45 @@
+#include "frontend/submission.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "edgewise/limits.h"
+
+namespace edgewise {
+
+std::size_t checked_count(std::size_t triangles) {
+  if (triangles > kMaxTriangles)
+    throw std::invalid_argument(std::to_string(triangles) + " triangles are more than " +
+                                std::to_string(kMaxTriangles));
+  return triangles;
+}
+
+void check_threads(int threads) {
+  if (threads < 1 || threads > kMaxThreads)
+    throw std::invalid_argument(std::to_string(threads) + " threads are outside 1 to " +
+                                std::to_string(kMaxThreads));
+}
+
+const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
+  if (instance.mesh >= scene.meshes.size())
+    throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +
+                                std::to_string(scene.meshes.size()));
+  return scene.meshes[instance.mesh];
+}
+
+void check_flags(const Mesh& mesh) {
+  if (!mesh.flags.empty() && mesh.flags.size() != mesh.triangles.size())
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(mesh.flags.size()) + " flags");
+}
+
+void check_vertices(const Mesh& mesh) {
+  const auto largest = [](glm::uvec3 t) { return std::max({t.x, t.y, t.z}); };
+  const auto bad = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                [&](glm::uvec3 t) { return largest(t) >= mesh.positions.size(); });
+  if (bad == mesh.triangles.end()) return;
+  throw std::invalid_argument("triangle " + std::to_string(bad - mesh.triangles.begin()) + " names vertex " +
+                              std::to_string(largest(*bad)) + " of " + std::to_string(mesh.positions.size()));
+}
+
+}  // namespace edgewise

@@ -1,0 +1,32 @@
+// The triangles of a scene in submission order, and checks that the front end, the queries and the C
+// interface share. Checks throw std::invalid_argument.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "edgewise/scene.h"
+
+namespace edgewise {
+
+// Returns `triangles` unless a frame cannot have so many.
+std::size_t checked_count(std::size_t triangles);
+
+void check_threads(int threads);
+
+const Mesh& mesh_of(const Scene& scene, const Instance& instance);
+
+// The flags are empty or one per triangle.
+void check_flags(const Mesh& mesh);
+
+// All vertices that triangles name exist.
+void check_vertices(const Mesh& mesh);
+
+// `first_ids`: by instance, its first triangle; then the number of triangles, which exceeds `triangle`.
+inline std::size_t instance_of(const std::vector<std::size_t>& first_ids, std::size_t triangle) {
+  const auto after = std::upper_bound(first_ids.begin(), first_ids.end(), triangle);
+  return static_cast<std::size_t>(after - first_ids.begin()) - 1;
+}
+
+}  // namespace edgewise
