@@ -220,7 +220,7 @@ TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
 TEST(Frontend, IdsBeginAtTheFirstId) {
   constexpr std::uint32_t kFirst = 1'000'000;
   for (const auto& family : randomized::scene_families()) {
-    Random random(48);
+    Random random(7);
     const Drawable drawable = family.make(random, 100, 100);
     for (const bool shade : {false, true})
       for (const bool keep_states : {false, true})  // the path for single triangles
@@ -233,7 +233,7 @@ TEST(Frontend, IdsBeginAtTheFirstId) {
             testing::expect_same_triangles(colours, run(drawable, options).triangles, "colours");
             options.payload = Payload::id, options.first_id = 0;
             auto expected = run(drawable, options).triangles;
-            ASSERT_GT(expected.size(), 2u) << family.name;
+            ASSERT_GT(expected.size(), 8u) << family.name;
             for (ScreenTriangle& t : expected) t.payload += kFirst;
             options.first_id = kFirst;
             testing::expect_same_triangles(expected, run(drawable, options).triangles,
