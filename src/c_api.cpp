@@ -19,6 +19,7 @@
 #include "edgewise/hash.h"
 #include "edgewise/scene.h"
 #include "edgewise/visible.h"
+#include "frontend/mesh_clusters.h"
 #include "frontend/submission.h"
 #include "raster/checks.h"
 
@@ -78,18 +79,41 @@ auto& meshes_of(Handle* scene) {
   return *found;
 }
 
-// Copies `count` elements that lie `stride` bytes apart; 0: without gaps.
+// Makes `to` hold `count` elements that lie `stride` bytes apart; 0: without gaps.
 template <typename T, typename Source>
-std::vector<T> copied(const Source* first, std::size_t count, std::size_t stride, const char* name) {
+void copy_in(const Source* first, std::size_t count, std::size_t stride, const char* name,
+             std::vector<T>& to) {
   if (count != 0) given(first, name);
   if (stride != 0 && stride < sizeof(T))
     throw std::invalid_argument(std::string(name) + ": a stride of " + std::to_string(stride) +
                                 " bytes is below " + std::to_string(sizeof(T)));
-  std::vector<T> all(count);
+  to.resize(count);
   const auto* const bytes = reinterpret_cast<const char*>(first);
   const std::size_t step = stride != 0 ? stride : sizeof(T);
-  for (std::size_t i = 0; i < count; ++i) std::memcpy(&all[i], bytes + i * step, sizeof(T));
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(&to[i], bytes + i * step, sizeof(T));
+}
+template <typename T, typename Source>
+std::vector<T> copied(const Source* first, std::size_t count, std::size_t stride, const char* name) {
+  std::vector<T> all;
+  copy_in(first, count, stride, name, all);
   return all;
+}
+
+// Copies all of `from`, whose size the caller knows.
+template <typename T>
+void copy_out(const std::vector<T>& from, T* to, const char* name) {
+  if (!from.empty()) std::copy(from.begin(), from.end(), &given(to, name));
+}
+
+void check_index(const char* what, std::size_t index, std::size_t count) {
+  if (index >= count)
+    throw std::invalid_argument(std::string(what) + " " + std::to_string(index) + " of " +
+                                std::to_string(count));
+}
+void check_count(const char* what, std::size_t given, std::size_t count) {
+  if (given != count)
+    throw std::invalid_argument(std::to_string(given) + " " + what + " given instead of " +
+                                std::to_string(count));
 }
 
 glm::dmat4 matrix_of(const double* elements) {
@@ -112,6 +136,7 @@ FrontendOptions frontend_options(const edgewise_options& options, const edgewise
   o.cull = kCull[options.cull];
   o.shade = options.unlit == 0;
   o.payload = options.ids != 0 ? Payload::id : Payload::colour;
+  o.first_id = options.first_id;
   o.threads = options.threads;
   return o;
 }
@@ -163,12 +188,22 @@ edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* me
   });
 }
 
+edgewise_status edgewise_set_positions(edgewise_scene* scene, size_t mesh, const float* positions,
+                                       size_t vertex_count, size_t stride) {
+  return status_of([&] {
+    auto& meshes = meshes_of(scene).meshes;
+    check_index("mesh", mesh, meshes.size());
+    check_count("vertices", vertex_count, meshes[mesh].positions.size());
+    copy_in(positions, vertex_count, stride, "positions", meshes[mesh].positions);
+    renew_clusters(meshes[mesh]);
+  });
+}
+
 edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16],
                                       size_t* index) {
   return status_of([&] {
     Scene& s = meshes_of(scene);
-    if (mesh >= s.meshes.size())
-      throw std::invalid_argument("mesh " + std::to_string(mesh) + " of " + std::to_string(s.meshes.size()));
+    check_index("mesh", mesh, s.meshes.size());
     Instance instance{.mesh = mesh};
     if (matrix != nullptr) instance.matrix = matrix_of(matrix);
     s.instances.push_back(instance);
@@ -179,10 +214,16 @@ edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const 
 edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, const double matrix[16]) {
   return status_of([&] {
     auto& instances = meshes_of(scene).instances;
-    if (instance >= instances.size())
-      throw std::invalid_argument("instance " + std::to_string(instance) + " of " +
-                                  std::to_string(instances.size()));
+    check_index("instance", instance, instances.size());
     instances[instance].matrix = matrix_of(matrix);
+  });
+}
+
+edgewise_status edgewise_remove_instance(edgewise_scene* scene, size_t instance) {
+  return status_of([&] {
+    auto& instances = meshes_of(scene).instances;
+    check_index("instance", instance, instances.size());
+    instances.erase(instances.begin() + static_cast<std::ptrdiff_t>(instance));
   });
 }
 
@@ -282,9 +323,32 @@ edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible
 }
 
 edgewise_status edgewise_pixels_per_triangle(edgewise_frame ids, uint32_t* pixels, size_t triangles) {
+  return status_of([&] { copy_out(pixels_per_triangle(view_of(ids), triangles), pixels, "pixels"); });
+}
+
+edgewise_status edgewise_pixels_per_instance(edgewise_frame ids, const edgewise_scene* scene,
+                                             uint32_t* pixels, size_t instances) {
   return status_of([&] {
-    const auto counts = pixels_per_triangle(view_of(ids), triangles);
-    if (triangles != 0) std::copy(counts.begin(), counts.end(), &given(pixels, "pixels"));
+    const Scene& s = meshes_of(scene);
+    check_count("instances", instances, s.instances.size());
+    copy_out(pixels_per_instance(view_of(ids), s), pixels, "pixels");
+  });
+}
+
+edgewise_status edgewise_pixels_per_mesh(edgewise_frame ids, const edgewise_scene* scene, uint32_t* pixels,
+                                         size_t meshes) {
+  return status_of([&] {
+    const Scene& s = meshes_of(scene);
+    check_count("meshes", meshes, s.meshes.size());
+    copy_out(pixels_per_mesh(view_of(ids), s), pixels, "pixels");
+  });
+}
+
+edgewise_status edgewise_first_ids(const edgewise_scene* scene, size_t* first, size_t instances) {
+  return status_of([&] {
+    const Scene& s = meshes_of(scene);
+    check_count("instances", instances, s.instances.size());
+    copy_out(first_ids(s), first, "first");
   });
 }
 

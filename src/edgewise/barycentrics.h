@@ -33,17 +33,19 @@ struct BarycentricsView {
 // relative error below contract::kDistanceError; with matrices, it is w. In a stream, and in a parallel
 // projection, where w is the same everywhere, it is the depth in [0, 1].
 //
-// `ids` is a frame of `drawable`, drawn with `options`, where payload is Payload::id. A pixel is background
-// if its depth is contract::kDepthClear; other depths do not count. The result has the same bits on every
-// SIMD target and for every number of threads. Each of options.threads threads keeps less than 1 MB until the
-// call ends. A pixel costs three edge functions, nine products and three divisions, in doubles. A visible
-// triangle is also transformed again, once or a few times; with triangles of a few pixels, this costs more.
+// `ids` is a frame of `drawable` alone, drawn with `options`, where payload is Payload::id. A pixel is
+// background if its depth is contract::kDepthClear; other depths do not count. So if the frame shows several
+// draws, pass a copy of its depths in which the pixels of the others are background. The result has the same
+// bits on every SIMD target and for every number of threads. Each of options.threads threads keeps less than
+// 1 MB until the call ends. A pixel costs three edge functions, nine products and three divisions, in
+// doubles. A visible triangle is also transformed again, once or a few times; with triangles of a few pixels,
+// this costs more.
 //
 // Throws std::invalid_argument
 // - for a frame or view that cannot be read or written, for options of another size than the frame or for
 //   another payload than ids, for a camera, an instance's mesh index or matrix, a thread count, a SIMD target
-//   or a number of triangles that Frontend::run() throws for, and for flags that are neither empty nor one
-//   per triangle. Then nothing has been written.
+//   or a number of triangles or a first id that Frontend::run() throws for, and for flags that are neither
+//   empty nor one per triangle. Then nothing has been written.
 // - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
 //   frame shows something else. Then the content of the planes is undefined, as it is after std::bad_alloc.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,

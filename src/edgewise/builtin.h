@@ -1,5 +1,8 @@
 // The built-in scenes. They are deterministic: the same name, size, time and scale give the same bits on
 // every machine. Any thread may call these functions.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

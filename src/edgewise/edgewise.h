@@ -69,6 +69,10 @@ typedef struct edgewise_mesh {
  * value are allowed: triangles with NaN or infinity are not drawn. Fails if a triangle names a vertex that
  * the mesh lacks. */
 edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* mesh, size_t* index);
+/* Moves the vertices of a mesh, as many as it has, in all its instances. `stride`: bytes from vertex to
+ * vertex; 0: 12. */
+edgewise_status edgewise_set_positions(edgewise_scene* scene, size_t mesh, const float* positions,
+                                       size_t vertex_count, size_t stride);
 
 /* Places a mesh in the world by an affine matrix, whose last row is 0 0 0 1. Null: the identity. `index`,
  * unless null, gets the instance's number. */
@@ -76,6 +80,8 @@ edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const 
                                       size_t* index);
 /* Moves an instance. Null is an error. */
 edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, const double matrix[16]);
+/* Removes an instance: the numbers of those after it fall by 1. Its mesh stays until the scene is freed. */
+edgewise_status edgewise_remove_instance(edgewise_scene* scene, size_t instance);
 
 /* The direction towards the light; finite, and of any length but 0. */
 edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction[3]);
@@ -136,10 +142,12 @@ enum { EDGEWISE_CULL_NONE, EDGEWISE_CULL_BACK, EDGEWISE_CULL_FRONT, EDGEWISE_CUL
 
 typedef struct edgewise_options {
   int cull; /* EDGEWISE_CULL_NONE ... EDGEWISE_CULL_BOTH: which triangles to drop for their facing */
-  int ids;  /* if not 0, payloads are ids: a triangle's number in its scene, through the instances in order */
-  int unlit;   /* if not 0, colours are not multiplied by the light */
-  int threads; /* 1 ... 256 */
-  int keep;    /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */
+  int ids;  /* if not 0, payloads are ids: first_id plus a triangle's number in its scene, through the
+               instances in order */
+  uint32_t first_id; /* 0, or in a draw over others the number of their triangles */
+  int unlit;         /* if not 0, colours are not multiplied by the light */
+  int threads;       /* 1 ... 256 */
+  int keep; /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */
   uint32_t background; /* the payload where no triangle is visible, unless `keep` */
   int scissor[4]; /* x, y, width, height: the only pixels that are drawn; the others keep what they hold */
 } edgewise_options;
@@ -147,8 +155,8 @@ typedef struct edgewise_options {
 /* No culling, lit colours, one thread, a frame that is cleared to black, no scissor. */
 edgewise_options edgewise_default_options(void);
 
-/* Draws a frame. `options` may be null: the default. With `keep`, draws add up as if they were one, but ids
- * begin at 0 in each scene. */
+/* Draws a frame. `options` may be null: the default. With `keep`, draws add up as if they were one, ids
+ * included if first_id is the number of triangles of the scenes before. */
 edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene,
                               const edgewise_options* options, edgewise_frame frame);
 
@@ -157,9 +165,19 @@ edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene*
 /* The ids of visible triangles, ascending: writes the first `capacity`, and to `count` how many there are. */
 edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity,
                                            size_t* count);
-/* The number of pixels of each triangle, by id. `triangles`: how many the scene has; all ids must be below.
- */
+/* The number of pixels of each triangle, by id. `triangles`: how many the frame's scenes have; all ids must
+ * be below. */
 edgewise_status edgewise_pixels_per_triangle(edgewise_frame ids, uint32_t* pixels, size_t triangles);
+/* The number of pixels of each instance of a scene, or of all instances of each mesh. `instances`, `meshes`:
+ * how many the scene has. The frame must show this scene alone, with a first_id of 0. If it shows several,
+ * sum edgewise_pixels_per_triangle() between first ids. */
+edgewise_status edgewise_pixels_per_instance(edgewise_frame ids, const edgewise_scene* scene,
+                                             uint32_t* pixels, size_t instances);
+edgewise_status edgewise_pixels_per_mesh(edgewise_frame ids, const edgewise_scene* scene, uint32_t* pixels,
+                                         size_t meshes);
+/* The id of each instance's first triangle, less first_id; then the scene's number of triangles. `first` has
+ * instances + 1 elements. */
+edgewise_status edgewise_first_ids(const edgewise_scene* scene, size_t* first, size_t instances);
 /* Whether a box in world space could be seen in front of what the frame shows. 0: it is certainly hidden. 1:
  * it may be visible. The frame needs no payload. */
 edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double low[3], const double high[3],
@@ -167,8 +185,9 @@ edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double l
 /* Perspective-correct barycentric coordinates of the second and third vertex, u and v, by pixel; 0 on
  * background. u, v and 1 - u - v are >= 0, with errors below 2^-24. `distance`, unless null, is along the
  * view direction, with a relative error below 2^-23; in streams and parallel projections, it is the depth in
- * 0 ... 1; infinite on background. Strides are in floats, from row to row. `ids` must show this scene, drawn
- * with these options and ids; the scissor does not count. */
+ * 0 ... 1; infinite on background. Strides are in floats, from row to row. `ids` must show this scene alone,
+ * drawn with these options and ids; the scissor does not count. If it shows several, pass a copy of its
+ * depths in which the pixels of the others are EDGEWISE_DEPTH_CLEAR. */
 edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride);

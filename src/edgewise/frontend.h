@@ -25,8 +25,8 @@ std::string_view name_of(Cull cull);  // "none", "back", "front", "both"
 
 enum class Payload {
   colour,  // 0xAABBGGRR
-  // Index of the source triangle in submission order. All pieces of a clipped triangle have the same id. The
-  // triangles of a face have different ids.
+  // FrontendOptions::first_id plus the index of the source triangle in submission order. All pieces of a
+  // clipped triangle have the same id. The triangles of a face have different ids.
   id
 };
 
@@ -48,6 +48,9 @@ struct FrontendOptions {
   Cull cull = Cull::back;           // the front is clockwise on the y-down screen
   bool shade = true;                // scenes only: multiplies each colour by max(n·l, 0.15)
   Payload payload = Payload::colour;
+  // The id of the first triangle. A draw over others sets it to the number of triangles that they submitted:
+  // then two draws equal one of both, ids included.
+  std::uint32_t first_id = 0;
   int threads = 1;  // 1 … kMaxThreads
   // For measurements: keeps each triangle's vertices as they were before snapping, and does not drop
   // triangles that snapping leaves without area. Slower.
@@ -120,7 +123,7 @@ class Frontend {
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,
   // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view,
   // - a mesh whose clusters are not one per kClusterTriangles triangles,
-  // - more than kMaxTriangles triangles (before memory is allocated for them),
+  // - more than kMaxTriangles triangles (before memory is allocated for them), or ids that reach it,
   // - a SIMD target that this machine cannot run.
   // The object may be used again after an exception. Boxes of clusters are not checked: if positions or
   // triangles have changed since clusters_of(), triangles may be missing.

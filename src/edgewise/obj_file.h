@@ -1,4 +1,7 @@
 // Wavefront OBJ meshes. Part of edgewise::files. Any thread may call this.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

@@ -1,6 +1,9 @@
 // The two kinds of input: a scene (meshes, a camera and a light), or a stream of triangles that are already
 // on the screen. All types here are plain values that own their data. Frontend::run and draw() check them;
 // nothing is checked before.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

@@ -2,6 +2,9 @@
 // then per triangle nine float32 (x, y, z of three vertices) and a uint32 colour. Units are those of
 // StreamTriangle. Any thread may call these functions, but two threads must not write to one std::ostream at
 // once.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

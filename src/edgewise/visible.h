@@ -28,13 +28,14 @@ std::vector<std::uint32_t> visible_triangles(const ConstFrameView& ids);
 // std::invalid_argument for an id that is not below it.
 std::vector<std::uint32_t> pixels_per_triangle(const ConstFrameView& ids, std::size_t triangles);
 
-// Ids count through the instances in order. One entry per instance: the id of its first triangle. Then one
-// more: the number of triangles of the scene. Throws std::invalid_argument for an instance whose mesh index
-// the scene lacks.
+// Ids count through the instances in order, here from 0 on. One entry per instance: the id of its first
+// triangle. Then one more: the number of triangles of the scene. Throws std::invalid_argument for an instance
+// whose mesh index the scene lacks.
 std::vector<std::size_t> first_ids(const Scene& scene);
 
-// The number of pixels of each instance, or of all instances of each mesh. Throws what first_ids() throws,
-// and std::invalid_argument for an id that the scene lacks.
+// The number of pixels of each instance, or of all instances of each mesh, in a frame of this scene alone,
+// whose ids begin at 0. If it shows several draws, sum pixels_per_triangle() between the first ids. Throws
+// what first_ids() throws, and std::invalid_argument for an id that the scene lacks.
 std::vector<std::uint32_t> pixels_per_instance(const ConstFrameView& ids, const Scene& scene);
 std::vector<std::uint32_t> pixels_per_mesh(const ConstFrameView& ids, const Scene& scene);
 

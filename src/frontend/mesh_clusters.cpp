@@ -41,6 +41,11 @@ std::vector<MeshCluster> make_clusters(const Mesh& mesh) {
   return clusters;
 }
 
+void renew_clusters(Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.clusters.size(); ++i)
+    mesh.clusters[i] = make_cluster(mesh, triangles_of(mesh, i));
+}
+
 void make_clusters(Drawable& drawable) {
   if (auto* scene = std::get_if<Scene>(&drawable))
     for (Mesh& mesh : scene->meshes) mesh.clusters = make_clusters(mesh);

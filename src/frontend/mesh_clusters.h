@@ -19,6 +19,8 @@ inline std::size_t cluster_count(const Mesh& mesh) {
 
 // The clusters of a mesh of any size, all of whose vertices must exist.
 std::vector<MeshCluster> make_clusters(const Mesh& mesh);
+// Makes the boxes of a mesh that has clusters anew, after a change of positions.
+void renew_clusters(Mesh& mesh);
 // Sets the clusters of every mesh of a scene, whatever its size. For `verify --random` and fuzzing.
 void make_clusters(Drawable& drawable);
 

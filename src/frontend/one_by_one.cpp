@@ -223,7 +223,8 @@ void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out) {
   const StreamTriangle& t = task.stream.triangles[triangle];
   const StreamGeometry geometry{t, {double(task.options.width), double(task.options.height), 0.0, 1.0}};
   const bool ids = task.options.payload == Payload::id;
-  const Source source{ids ? static_cast<std::uint32_t>(triangle) : t.colour, task.options.cull};
+  const Source source{ids ? task.options.first_id + static_cast<std::uint32_t>(triangle) : t.colour,
+                      task.options.cull};
   add_and_record_state(task, triangle, out, [&] {
     add({geometry.vertex(0), geometry.vertex(1), geometry.vertex(2)}, source, task.options, out, geometry);
   });

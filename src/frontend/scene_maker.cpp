@@ -65,7 +65,7 @@ void SceneMaker::start_instance(Worker& w, std::size_t instance) {
                           .view = view_->volume,
                           .to_screen = {*view_, model},
                           .depth = view_->depth,
-                          .first_id = static_cast<std::uint32_t>(first),
+                          .first_id = options_.first_id + static_cast<std::uint32_t>(first),
                           .states = states_ != nullptr ? states_ + first : nullptr});
   w.light.emplace(ShadeTask{mesh, cofactor_matrix(model), to_light_, w.task->first_id});
   w.sides.reset();

@@ -76,7 +76,7 @@ HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, ChunkOu
   cull_and_append({{snap(t.x[0]), snap(t.x[1]), snap(t.x[2])},
                    {snap(t.y[0]), snap(t.y[1]), snap(t.y[2])},
                    {quantize_depth(t.z[0]), quantize_depth(t.z[1]), quantize_depth(t.z[2])},
-                   ids ? counting_from(first) : t.colour},
+                   ids ? counting_from(options.first_id + first) : t.colour},
                   hn::Or(beyond(t.x, options.width), beyond(t.y, options.height)), options.cull, out);
   return true;
 }

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "edgewise/scene.h"
 
 namespace edgewise {
 
-// Returns `triangles` unless a frame cannot have so many.
-std::size_t checked_count(std::size_t triangles);
+// Returns `triangles` unless a frame cannot have so many, with ids from `first_id` on.
+std::size_t checked_count(std::size_t triangles, std::uint32_t first_id = 0);
 
 void check_threads(int threads);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -265,6 +266,74 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
   c.frontend.payload = random.below(2) == 0 ? Payload::colour : Payload::id;
   c.drawable = scene.make(random, c.width, c.height);
   return c;
+}
+
+namespace {
+
+// Of a kind that a helper of camera.h makes, or of a general one.
+CameraMatrices matrices_like(Random& random, const Camera& camera, int width, int height) {
+  const double aspect = double(width) / height, near_z{camera.near_z}, far_z{camera.far_z};
+  CameraMatrices m = matrices_of(camera, aspect);
+  glm::dmat4& p = m.projection;
+  const auto slope = [&] { return double{random.uniform(-0.25f, 0.25f)}; };
+  switch (random.below(6)) {
+    case 0:  // OpenGL
+      for (int i = 0; i < 4; ++i) p[i].z = 2.0 * p[i].z - p[i].w;
+      p = projection_from(kOpenGl, p);
+      break;
+    case 1:  // reversed depth, without a far plane
+      p = perspective_projection(double{camera.fov_y}, aspect, near_z,
+                                 std::numeric_limits<double>::infinity());
+      for (int i = 0; i < 4; ++i) p[i].z = p[i].w - p[i].z;
+      p = projection_from({.reversed = true}, p);
+      break;
+    case 2: {
+      const double side{magnitude(random, -3, 7)};
+      const double begin = one_in(random, 2) ? near_z : -far_z;
+      p = orthographic_projection(-side * aspect, side * aspect, -side, side, begin, far_z);
+      break;
+    }
+    case 3: {  // computer vision, with skew
+      const double focal = p[1].y * height / 2.0, skew = focal * slope();
+      const double x = width * (0.5 + slope()), y = height * (0.5 + slope());
+      for (int i = 0; i < 4; ++i) m.view[i].y = -m.view[i].y, m.view[i].z = -m.view[i].z;
+      const glm::dmat3 k(focal, 0, 0, skew, focal, 0, x, y, 1);
+      p = intrinsics_projection(k, width, height, 0.0, near_z, far_z);
+      break;
+    }
+    case 4:  // a tilted near plane
+      p[0].z = slope() * p[0].x;
+      p[1].z = slope() * p[1].y;
+      break;
+    default:  // sheared, in one matrix
+      glm::dmat4 shear(1.0);
+      for (int i = 0; i < 9; ++i) shear[i / 3][i % 3] += slope();
+      m = {glm::dmat4(1.0), p * shear * m.view};
+  }
+  return m;
+}
+
+}  // namespace
+
+std::optional<CameraMatrices> random_matrices(Random& random, const Camera& camera, int width,
+                                              int height) try {
+  Scene scene;
+  scene.matrices = matrices_like(random, camera, width, height);
+  Frontend().run(scene, {.width = width, .height = height});
+  return scene.matrices;
+} catch (const std::invalid_argument&) {
+  return {};
+}
+
+std::optional<Case> with_matrices(const Case& c) {
+  Random random(~c.draws_seed);
+  if (!c.drawable || !std::holds_alternative<Scene>(*c.drawable) || one_in(random, 2)) return {};
+  const auto m = random_matrices(random, std::get<Scene>(*c.drawable).camera, c.width, c.height);
+  if (!m) return {};
+  Case other = c;
+  other.family = "matrices";
+  std::get<Scene>(*other.drawable).matrices = m;
+  return other;
 }
 
 }  // namespace edgewise::randomized

@@ -32,6 +32,13 @@ struct Case {
 
 Case make_case(std::uint64_t seed, std::uint64_t number);
 
+// Matrices that show about what a camera does: of the kinds that camera.h has helpers for, and general ones.
+// None if the front end refuses them, or the camera.
+std::optional<CameraMatrices> random_matrices(Random& random, const Camera& camera, int width, int height);
+// The case with matrices in place of its camera; of every second scene, if there are any. make_case() has
+// none, so that its cases stay those whose hashes are stored.
+std::optional<Case> with_matrices(const Case& c);
+
 // Families of scenes that go through the front end.
 struct SceneFamily {
   std::string_view name;

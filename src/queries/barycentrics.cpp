@@ -86,13 +86,13 @@ class Triangles {
       : options_(options), scene_(std::get_if<Scene>(&drawable)) {
     if (scene_ == nullptr) {
       stream_ = &std::get<TriangleStream>(drawable);
-      count_ = stream_->triangles.size();
+      count_ = checked_count(stream_->triangles.size(), options.first_id);
       return;
     }
     view_.emplace(*scene_, options.width, options.height);
     w_is_distance_ = view_->axis == glm::dvec3(0.0);
     first_ids_ = first_ids(*scene_);
-    count_ = checked_count(first_ids_.back());
+    count_ = checked_count(first_ids_.back(), options.first_id);
     for (const Instance& instance : scene_->instances) {
       check(instance);
       check_flags(scene_->meshes[instance.mesh]);
@@ -107,7 +107,7 @@ class Triangles {
       out_.triangles.reserve(Clipper::kMaxVertices - 2);
       out_.sources = &sources_;
     }
-    // Appends the pieces of triangle `id`, which exists.
+    // Appends the pieces of triangle `id`, which exists. Ids begin at 0 here.
     void append(std::uint32_t id, std::vector<Piece>& pieces) {
       out_.count = 0;
       sources_.clear();
@@ -231,12 +231,13 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
     const auto write_row = [&](int x0, int x1, int y) {
       const std::uint32_t *depth = ids.depth + y * ids.stride, *id = ids.payload + y * ids.stride;
       std::span<const Piece> pieces;
-      std::uint32_t last = 0;  // the id of these pieces, if there are any
+      std::uint32_t last = 0;  // the triangle of these pieces, if there are any
       for (int x = x0; x < x1; ++x) {
         std::optional<Point> point = kBackground;
         if (depth[x] != contract::kDepthClear) {
-          if (pieces.empty() || id[x] != last) {
-            last = id[x];
+          const std::uint32_t triangle = id[x] - options.first_id;  // too large if the id is too small
+          if (pieces.empty() || triangle != last) {
+            last = triangle;
             pieces = last < triangles.count() ? cache.pieces_of(last) : std::span<const Piece>();
           }
           point = point_at(pieces, x, y);
@@ -263,10 +264,12 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
   const std::uint64_t y = first_wrong / width, x = first_wrong % width;
   const std::uint32_t id =
       ids.payload[static_cast<std::ptrdiff_t>(y) * ids.stride + static_cast<std::ptrdiff_t>(x)];
+  const bool exists = id - options.first_id < triangles.count();
   throw std::invalid_argument(
       "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") has id " + std::to_string(id) +
-      (id < triangles.count() ? ", of a triangle that does not cover it"
-                              : " of " + std::to_string(triangles.count()) + " triangles"));
+      (exists ? ", of a triangle that does not cover it"
+              : " of " + std::to_string(triangles.count()) + " triangles" +
+                    (options.first_id != 0 ? " from " + std::to_string(options.first_id) + " on" : "")));
 }
 
 }  // namespace edgewise

@@ -39,7 +39,7 @@ bool draw_in_bands(TriangleSource& triangles, const FramePart& part, const Execu
                    Draw&& draw) {
   constexpr int kWholeWidthLog2 = 14;
   static_assert(1 << kWholeWidthLog2 == contract::kMaxImageSide);
-  const CellGrid grid{part.frame.width, part.frame.height, kWholeWidthLog2, kBandRowsLog2};
+  const CellGrid grid{part.frame.width, part.frame.height, kWholeWidthLog2, kBandRowsLog2, part.x0, part.y0};
   if (!bins.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices))
     return false;
   const int first = part.y0 >> kBandRowsLog2;

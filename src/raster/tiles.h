@@ -60,7 +60,7 @@ bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execu
                    BandKernel draw_light = nullptr) {
   const FrameView& frame = part.frame;
   const int size_log2 = std::countr_zero(static_cast<unsigned>(execution.tile_size));
-  const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
+  const CellGrid grid{frame.width, frame.height, size_log2, size_log2, part.x0, part.y0};
   Bins& bins = scratch.bins;
   TileList& list = scratch.list;
   const Bins::Small small = options.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices;

@@ -96,6 +96,31 @@ TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
   EXPECT_TRUE(several_chunks);
 }
 
+TEST(RandomCases, SomeScenesHaveMatrices) {
+  std::uint64_t scenes = 0, cases = 0, drawn = 0, usual = 0, parallel = 0;
+  for (std::uint64_t number = 0; number < 1500; ++number) {
+    const Case c = make_case(3, number);
+    const auto* scene = c.drawable ? std::get_if<Scene>(&*c.drawable) : nullptr;
+    const auto other = with_matrices(c);
+    scenes += scene != nullptr;
+    if (!other) continue;
+    ++cases;
+    ASSERT_NE(scene, nullptr);
+    EXPECT_FALSE(scene->matrices);
+    const CameraMatrices m = std::get<Scene>(*other->drawable).matrices.value();
+    EXPECT_EQ(m.projection, std::get<Scene>(*with_matrices(c)->drawable).matrices->projection);
+    const bool affine = m.view[3].w == 1.0 && m.view != glm::dmat4(1.0);
+    usual += affine && m.projection[3].w == 0.0 && m.projection[0].z == 0.0;
+    parallel += affine && m.projection[3].w == 1.0;
+    drawn += Frontend().run(*other->drawable, other->frontend).size();
+  }
+  EXPECT_GT(cases, scenes / 4);
+  EXPECT_GT(usual, cases / 4);
+  EXPECT_GT(parallel, cases / 20);
+  EXPECT_GT(cases - usual - parallel, cases / 10);
+  EXPECT_GT(drawn, 10 * cases);
+}
+
 TEST(RandomCases, KeepTheGuardBandAtEverySize) {
   for (const std::string_view family : lab::triangle_families())
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -266,6 +291,17 @@ TEST(RandomFindings, IncludeAWrongFrontEnd) {
   plan.failure_folder = folder.path() / "failures";
   const std::string finding = finding_with(plan, "(stream): front end (");
   EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u) << finding;
+}
+
+TEST(RandomFindings, IncludeAFrontEndThatIsWrongWithMatrices) {
+  Plan plan = plan_of(16, 60);
+  plan.frontend = [](Frontend& frontend, const Drawable& drawable, const FrontendOptions& options) {
+    const std::span<const ScreenTriangle> all = frontend.run(drawable, options);
+    const auto* scene = std::get_if<Scene>(&drawable);
+    const bool wrong = scene != nullptr && scene->matrices && !all.empty();
+    return wrong ? all.first(all.size() - 1) : all;
+  };
+  finding_with(plan, "(matrices): front end (");
 }
 
 TEST(RandomFindings, IncludeAWrongWholeFrame) {

@@ -11,10 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "edgewise/backend.h"
 #include "edgewise/builtin.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
 #include "lab/measure.h"
+#include "lab/random_cases.h"
+#include "message_of.h"
 #include "support.h"
 
 namespace edgewise {
@@ -212,6 +215,53 @@ TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
   EXPECT_LT(result.triangles[0].x_sub[0], result.triangles[1].x_sub[0]) << "instances keep their order";
   for (const auto& piece : run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}), options).triangles)
     EXPECT_EQ(piece.payload, 0u);
+}
+
+TEST(Frontend, IdsBeginAtTheFirstId) {
+  constexpr std::uint32_t kFirst = 1'000'000;
+  for (const auto& family : randomized::scene_families()) {
+    Random random(7);
+    const Drawable drawable = family.make(random, 100, 100);
+    for (const bool shade : {false, true})
+      for (const bool keep_states : {false, true})  // the path for single triangles
+        for (const SimdTarget target : supported_targets())
+          for (const int threads : {1, 3}) {
+            FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .shade = shade};
+            options.threads = threads, options.keep_states = keep_states, options.target = target;
+            auto colours = run(drawable, options).triangles;
+            options.first_id = kFirst;
+            testing::expect_same_triangles(colours, run(drawable, options).triangles, "colours");
+            options.payload = Payload::id, options.first_id = 0;
+            auto expected = run(drawable, options).triangles;
+            ASSERT_GT(expected.size(), 8u) << family.name;
+            for (ScreenTriangle& t : expected) t.payload += kFirst;
+            options.first_id = kFirst;
+            testing::expect_same_triangles(expected, run(drawable, options).triangles,
+                                           std::string(family.name));
+          }
+  }
+}
+
+TEST(Frontend, RefusesIdsBeyondTheLimit) {
+  FrontendOptions options{.width = 100, .height = 100, .payload = Payload::id, .first_id = kMaxTriangles - 2};
+  const std::string limit = std::to_string(kMaxTriangles), last = std::to_string(kMaxTriangles - 1);
+  const StreamTriangle triangle{{{33, 33, 0}, {66, 66, 0}, {33, 66, 0}}, 0};
+  const TriangleStream stream{100, 100, {triangle, triangle}};
+  const auto draw_it = [&](const Drawable& drawable) {
+    Frontend frontend;
+    Framebuffer frame(100, 100);
+    draw(drawable, frontend, options, *find_backend("tiled").make(), frame.view(), 0, {});
+    return frame.payload_row(60)[40];
+  };
+  EXPECT_EQ(draw_it(stream), options.first_id);
+  ++options.first_id;
+  EXPECT_EQ(draw_it(loose(kFront)), kMaxTriangles - 1);
+  EXPECT_EQ(message_of([&] { draw_it(stream); }),
+            "the ids of 2 triangles, from " + last + " on, reach " + limit);
+  ++options.first_id;
+  EXPECT_EQ(message_of([&] { draw_it(loose(kFront)); }),
+            "the ids of 1 triangles, from " + limit + " on, reach " + limit);
+  EXPECT_EQ(draw_it(Scene{}), 0u);
 }
 
 TEST(Frontend, ShadesByTheLightWithAMinimum) {

@@ -4,6 +4,7 @@
 
 #include "edgewise/obj_file.h"
 #include "fuzz.h"
+#include "lab/random_cases.h"
 
 using namespace edgewise;
 
@@ -37,6 +38,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   check(scene);
-  fuzz::check_frontend(std::move(scene), 64, 48);
+  fuzz::check_frontend(scene, 64, 48);
+  Random random(size);
+  scene.matrices = randomized::random_matrices(random, scene.camera, 64, 48);
+  if (scene.matrices) fuzz::check_frontend(scene, 64, 48);
   return 0;
 }

@@ -345,11 +345,16 @@ TEST(Barycentrics, AreWithinTheContractsErrorAtExtremeDepths) {
 TEST(Barycentrics, AreTheSameOnEveryTargetAndThreadCount) {
   for (const auto& family : randomized::scene_families()) {
     Random random(7);
-    const Shown shown(family.make(random, 150, 90), {.width = 150, .height = 90, .cull = Cull::none});
+    Shown shown(family.make(random, 150, 90), {.width = 150, .height = 90, .cull = Cull::none});
     const Planes expected = shown.planes();
     for (const int threads : {2, 3, 8}) EXPECT_TRUE(shown.planes(threads) == expected) << family.name;
     for (const SimdTarget target : supported_targets())
       EXPECT_TRUE(shown.planes(1, target) == expected) << family.name << ", " << name_of(target);
+    const FrameView ids = shown.ids.view();  // the same, with ids that begin at 9
+    for (int y = 0; y < ids.height; ++y)
+      for (int x = 0; x < ids.width; ++x) ids.payload[y * ids.stride + x] += 9;
+    shown.options.first_id = 9;
+    EXPECT_TRUE(shown.planes() == expected) << family.name;
   }
 }
 
@@ -501,6 +506,8 @@ TEST(Barycentrics, RejectsWhatDoesNotFit) {
                 c.drawable = TriangleStream{40, 30, {}};
               }),
               "pixel " + first + " has id 0 of 0 triangles");
+    EXPECT_EQ(on_threads([&](Call& c) { c.options.first_id = 1; }),
+              "pixel " + first + " has id 0 of 2 triangles from 1 on");
   }
 }
 

@@ -171,6 +171,14 @@ TEST(CInterface, TellsWhatIsSeen) {
   std::vector<std::uint32_t> pixels(6);
   EXPECT_EQ(edgewise_pixels_per_triangle(frame.c(), pixels.data(), 6), EDGEWISE_OK);
   EXPECT_EQ(pixels, pixels_per_triangle(frame.view(), 6));
+  std::vector<std::uint32_t> instances(2), meshes(1);
+  EXPECT_EQ(edgewise_pixels_per_instance(frame.c(), both.c, instances.data(), 2), EDGEWISE_OK);
+  EXPECT_EQ(instances, pixels_per_instance(frame.view(), both.scene));
+  EXPECT_EQ(edgewise_pixels_per_mesh(frame.c(), both.c, meshes.data(), 1), EDGEWISE_OK);
+  EXPECT_EQ(meshes, pixels_per_mesh(frame.view(), both.scene));
+  std::vector<std::size_t> first(3);
+  EXPECT_EQ(edgewise_first_ids(both.c, first.data(), 2), EDGEWISE_OK);
+  EXPECT_EQ(first, first_ids(both.scene));
 
   std::vector<float> uv(2 * kWidth * kHeight), distance(kWidth * kHeight), uv2 = uv, distance2 = distance;
   EXPECT_EQ(
@@ -191,6 +199,101 @@ TEST(CInterface, TellsWhatIsSeen) {
               visible(Bounds{glm::make_vec3(low), glm::make_vec3(high)}, both.scene, frame.view()));
   }
   EXPECT_EQ(edgewise_depth01(contract::kDepthHead + 12345), contract::depth01(contract::kDepthHead + 12345));
+}
+
+TEST(CInterface, DrawsThatAddUpEqualOneIdsIncluded) {
+  Both both, rest;
+  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
+  rest.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
+  Scene expected_scene = both.scene;
+  for (std::size_t i = 0; i < 2; ++i) {
+    glm::dmat4 place = i == 0 ? glm::dmat4(1.0) : kMatrix;
+    place[3].z += 0.4;
+    EXPECT_EQ(edgewise_set_instance(rest.c, i, glm::value_ptr(place)), EDGEWISE_OK);
+    expected_scene.instances.push_back({.matrix = place});
+  }
+  const Renderer renderer("tiled");
+  edgewise_options options = edgewise_default_options();
+  options.ids = 1;
+  Planes actual, expected;
+  EXPECT_EQ(edgewise_draw(renderer.c, both.c, &options, actual.c()), EDGEWISE_OK);
+  options.keep = 1, options.first_id = 6;
+  EXPECT_EQ(edgewise_draw(renderer.c, rest.c, &options, actual.c()), EDGEWISE_OK);
+  Frontend frontend;
+  const FrontendOptions o{.width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id};
+  draw(expected_scene, frontend, o, *find_backend("naive").make(), expected.view(), 0xFF000000, {});
+  EXPECT_EQ(actual, expected);
+  EXPECT_GE(visible_triangles(actual.view()).back(), 6u);
+  options.first_id = 1u << 30;
+  EXPECT_EQ(edgewise_draw(renderer.c, rest.c, &options, actual.c()), EDGEWISE_INVALID_ARGUMENT);
+  EXPECT_EQ(actual, expected);
+}
+
+TEST(CInterface, ChangesAScene) {
+  Both both;
+  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
+  const Renderer renderer("tiled");
+  const auto expect_drawn = [&] {
+    Planes actual, expected;
+    EXPECT_EQ(edgewise_draw(renderer.c, both.c, nullptr, actual.c()), EDGEWISE_OK) << edgewise_error();
+    Frontend frontend;
+    draw(both.scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
+         *find_backend("naive").make(), expected.view(), 0xFF000000, {});
+    EXPECT_EQ(actual, expected);
+    return expected;
+  };
+  const Planes before = expect_drawn();
+  std::vector<glm::vec3>& positions = both.scene.meshes[0].positions;
+  std::vector<glm::vec4> moved;  // 16 bytes apart
+  for (glm::vec3& p : positions) moved.emplace_back(p = 0.5f * p + glm::vec3(0.3f, 0, 0), 9.0f);
+  EXPECT_EQ(edgewise_set_positions(both.c, 0, &moved[0].x, 4, 16), EDGEWISE_OK);
+  EXPECT_NE(expect_drawn(), before);
+  EXPECT_EQ(edgewise_remove_instance(both.c, 0), EDGEWISE_OK);
+  both.scene.instances.erase(both.scene.instances.begin());
+  expect_drawn();
+  EXPECT_EQ(edgewise_remove_instance(both.c, 1), EDGEWISE_INVALID_ARGUMENT);
+  EXPECT_EQ(edgewise_remove_instance(both.c, 0), EDGEWISE_OK);
+  both.scene.instances.clear();
+  expect_drawn();
+}
+
+// The mesh has clusters, whose boxes are renewed.
+TEST(CInterface, MovesALargeMeshIntoView) {
+  constexpr std::uint32_t kCount = 70'000;
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const glm::vec3 at(float(i % 300) / 150.0f - 1.0f, float(i / 300) / 150.0f - 1.0f, -3.0f);
+    mesh.positions.insert(mesh.positions.end(),
+                          {at, at + glm::vec3(0, 0.02f, 0), at + glm::vec3(0.02f, 0, 0)});
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    mesh.colours.push_back(rgb(i % 256, i / 256 % 256, 9));
+  }
+  scene.instances.emplace_back();
+  edgewise_scene* c = nullptr;
+  ASSERT_EQ(edgewise_new_scene(&c), EDGEWISE_OK);
+  std::vector<glm::vec3> behind = mesh.positions;
+  for (glm::vec3& p : behind) p.z = 3;
+  edgewise_mesh given{};
+  given.positions = &behind[0].x, given.vertex_count = behind.size();
+  given.triangles = &mesh.triangles[0].x, given.triangle_count = kCount;
+  given.colours = mesh.colours.data();
+  EXPECT_EQ(edgewise_add_mesh(c, &given, nullptr), EDGEWISE_OK);
+  EXPECT_EQ(edgewise_add_instance(c, 0, nullptr, nullptr), EDGEWISE_OK);
+  EXPECT_EQ(edgewise_set_positions(c, 0, &mesh.positions[0].x, behind.size(), 0), EDGEWISE_OK);
+  scene.matrices = {glm::dmat4(1.0), perspective_projection(1.1, 1.4, 0.3, 8)};
+  EXPECT_EQ(edgewise_set_camera(c, glm::value_ptr(scene.matrices->view),
+                                glm::value_ptr(scene.matrices->projection)),
+            EDGEWISE_OK);
+  const Renderer renderer("tiled");
+  Planes actual, expected;
+  EXPECT_EQ(edgewise_draw(renderer.c, c, nullptr, actual.c()), EDGEWISE_OK);
+  Frontend frontend;
+  draw(scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
+       *find_backend("naive").make(), expected.view(), 0xFF000000, {});
+  EXPECT_EQ(actual, expected);
+  EXPECT_NE(std::count(actual.payload.begin(), actual.payload.end(), 0xFF000000), kWidth * kHeight);
+  edgewise_free_scene(c);
 }
 
 TEST(CInterface, TellsErrorsAndChangesNothing) {
@@ -217,6 +320,21 @@ TEST(CInterface, TellsErrorsAndChangesNothing) {
   fails(edgewise_add_instance(both.c, 1, nullptr, nullptr), "mesh 1 of 1");
   fails(edgewise_set_instance(both.c, 2, glm::value_ptr(kMatrix)), "instance 2 of 2");
   fails(edgewise_set_instance(both.c, 1, nullptr), "matrix is null");
+  fails(edgewise_remove_instance(both.c, 2), "instance 2 of 2");
+  const float origin[3] = {};
+  fails(edgewise_set_positions(both.c, 1, origin, 1, 0), "mesh 1 of 1");
+  fails(edgewise_set_positions(both.c, 0, origin, 1, 0), "1 vertices given instead of 4");
+  fails(edgewise_set_positions(both.c, 0, nullptr, 4, 0), "positions is null");
+  fails(edgewise_set_positions(both.c, 0, origin, 4, 11), "stride of 11 bytes is below 12");
+  std::uint32_t counts[3] = {5, 5, 5};
+  std::size_t first[3] = {5, 5, 5};
+  fails(edgewise_pixels_per_instance(frame.c(), both.c, counts, 3), "3 instances given instead of 2");
+  fails(edgewise_pixels_per_instance(frame.c(), both.c, counts, 2), "a pixel has id 7 of 6 triangles");
+  fails(edgewise_pixels_per_mesh(frame.c(), both.c, counts, 2), "2 meshes given instead of 1");
+  fails(edgewise_first_ids(both.c, first, 3), "3 instances given instead of 2");
+  fails(edgewise_first_ids(both.c, nullptr, 2), "first is null");
+  EXPECT_TRUE(std::all_of(counts, counts + 3, [](std::uint32_t n) { return n == 5; }));
+  EXPECT_TRUE(std::all_of(first, first + 3, [](std::size_t n) { return n == 5; }));
   for (const double wrong : {0.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     const double light[] = {wrong, 0, 0};
     fails(edgewise_set_light(both.c, light), "light");

@@ -241,6 +241,7 @@ TEST(Visible, BoxIsSeenWhereverWhatLiesInItWinsAPixel) {
       if (!std::holds_alternative<Scene>(drawable)) continue;
       // One triangle of one instance, or all of them.
       Scene scene = std::get<Scene>(drawable);
+      if (trial % 3 == 0) scene.matrices = randomized::random_matrices(random, scene.camera, width, height);
       scene.instances = {scene.instances[random.below(scene.instances.size())]};
       Mesh& mesh = scene.meshes[scene.instances[0].mesh];
       if (random.below(2) == 0) mesh.triangles.resize(1), mesh.colours.resize(1);
@@ -248,8 +249,11 @@ TEST(Visible, BoxIsSeenWhereverWhatLiesInItWinsAPixel) {
       const std::string what = std::string(family.name) + " " + std::to_string(trial);
       expect_seen(scene, box, width, height, what, seen);
       // Rule 10 needs a camera that is not too far from the faces' origin.
-      if (const double size = glm::length(box.high - box.low); size < 0x1p12)
-        expect_seen(faces_of(box, scene.camera), box, width, height, what + ", faces", seen);
+      if (const double size = glm::length(box.high - box.low); size < 0x1p12) {
+        Scene faces = faces_of(box, scene.camera);
+        faces.matrices = scene.matrices;
+        expect_seen(faces, box, width, height, what + ", faces", seen);
+      }
       if (HasFatalFailure()) return;
       Framebuffer nearest(width, height);
       for (int y = 0; y < height; ++y) std::fill_n(nearest.view().depth + y * nearest.stride(), width, 0u);

@@ -2,6 +2,7 @@
 // triangles that span few cells, it holds few others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -142,6 +143,8 @@ void expect_no_loss(const std::vector<ScreenTriangle>& triangles, const CellGrid
       EXPECT_TRUE(at < list.size() && list[at] == i) << "triangle " << i << " is not in cell " << cell;
     };
     lab::for_each_span(triangles[i], grid.width, grid.height, [&](int y, int begin, int end) {
+      begin = std::max(begin, grid.x0);
+      if (y < grid.y0 || begin >= end) return;
       const int row = (y >> grid.cell_h_log2) * grid.columns();
       for (int column = begin >> grid.cell_w_log2; column <= (end - 1) >> grid.cell_w_log2; ++column)
         expect_in(row + column);
@@ -156,6 +159,19 @@ TEST_P(BinsOnTarget, LoseNoTriangle) {
       const auto triangles = adversarial(family, full_size() ? 20'000 : 2'000, grid.width, grid.height, 11);
       SCOPED_TRACE(std::string(family) + ", cells of " + std::to_string(1 << log2));
       expect_no_loss(triangles, grid, lists(triangles, grid));
+    }
+}
+
+TEST_P(BinsOnTarget, HoldOnlyTrianglesWithASampleBoxInTheDrawnPart) {
+  for (const int log2 : {3, 4, 6})
+    for (const std::string_view family : kFamilies) {
+      const CellGrid grid{200, 150, log2, log2, 130, 90};
+      const auto triangles = adversarial(family, 2'000, grid.width, grid.height, 12);
+      SCOPED_TRACE(std::string(family) + ", cells of " + std::to_string(1 << log2));
+      const auto found = lists(triangles, grid);
+      expect_no_loss(triangles, grid, found);
+      for (const auto& list : found)
+        for (const std::uint32_t i : list) ASSERT_FALSE(box_in(grid, triangles[i]).empty()) << i;
     }
 }
 

@@ -5,8 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "edgewise/visible.h"
 #include "every_backend.h"
 #include "lab/guarded_frame.h"
+#include "lab/random_cases.h"
 #include "message_of.h"
 
 namespace edgewise {
@@ -120,6 +122,55 @@ TEST_P(EveryBackend, DrawsOfOneTriangleEachEqualOneOfAll) {
         backend.draw({&triangle, 1}, frame.view(), {.clear = false}, how.execution);
       testing::expect_same(expected, frame, std::string(family) + ", " + testing::describe(how));
     }
+  }
+}
+
+TriangleStream joined(const TriangleStream& a, const TriangleStream& b) {
+  TriangleStream both = a;
+  both.triangles.insert(both.triangles.end(), b.triangles.begin(), b.triangles.end());
+  return both;
+}
+// Seen by the camera of the first.
+Scene joined(const Scene& a, const Scene& b) {
+  Scene both = a;
+  both.meshes.insert(both.meshes.end(), b.meshes.begin(), b.meshes.end());
+  both.instances.insert(both.instances.end(), b.instances.begin(), b.instances.end());
+  for (Instance& instance : std::span(both.instances).subspan(a.instances.size()))
+    instance.mesh += a.meshes.size();
+  return both;
+}
+std::size_t triangles_of(const TriangleStream& stream) {
+  return stream.triangles.size();
+}
+std::size_t triangles_of(const Scene& scene) {
+  return first_ids(scene).back();
+}
+
+TEST_P(EveryBackend, TwoDrawsOfDrawablesEqualOneOfBothIdsIncluded) {
+  constexpr int kWidth = 97, kHeight = 71;
+  Frontend frontend;
+  const auto expect_added = [&]<typename T>(const T& first, T second, const std::string& what) {
+    if constexpr (std::is_same_v<T, Scene>) second.camera = first.camera;
+    FrontendOptions options{.width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id};
+    Framebuffer expected(kWidth, kHeight), frame(kWidth, kHeight);
+    draw(joined(first, second), frontend, options, *backend_, expected.view(), kBackground, {});
+    for (const auto& how : testing::executions()) {
+      lab::poison(frame);
+      Backend& backend = backends_.get(info_, how.tiles);
+      options.first_id = 0;
+      draw(first, frontend, options, backend, frame.view(), kBackground, how.execution);
+      options.first_id = static_cast<std::uint32_t>(triangles_of(first));
+      draw(second, frontend, options, backend, frame.view(), RenderPass{.clear = false}, how.execution);
+      testing::expect_same(expected, frame, what + ", " + testing::describe(how));
+    }
+  };
+  const auto families = randomized::scene_families();
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Random random(seed);
+    const auto make = [&](std::size_t family) { return families[family].make(random, kWidth, kHeight); };
+    const Drawable a = make(seed % families.size()), b = make(seed % families.size());
+    std::visit([&]<typename T>(const T& first) { expect_added(first, std::get<T>(b), std::to_string(seed)); },
+               a);
   }
 }
 

@@ -61,6 +61,7 @@ class Installed(unittest.TestCase):
         """Runs the consumer's programs, which were built in `folder`."""
         run(folder / "frames", env=environment)
         self.assertEqual(run(folder / "square_c", env=environment), run(folder / "square", env=environment))
+        self.assertRegex(run(folder / "seen", env=environment), r"^111556 px\n\d+ px\ndistance 3\.000\nthe box is hidden\n$")
         run(folder / "picture", cwd=folder, env=environment)
         self.assertTrue((folder / "pyramid.png").read_bytes().startswith(b"\x89PNG"))
         said = run(folder / "consumer", cwd=folder, env=environment)
@@ -105,7 +106,8 @@ class Installed(unittest.TestCase):
         for package in prefix.rglob("*.pc"):
             self.assertIn("\nLicense: MIT\n", package.read_text())
         for program, source, package in (("consumer", "main", "edgewise-files"), ("picture", "picture", "edgewise-files"),
-                                         ("frames", "frames", "edgewise"), ("square", "square", "edgewise")):
+                                         ("frames", "frames", "edgewise"), ("square", "square", "edgewise"),
+                                         ("seen", "seen", "edgewise")):
             flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
             run(compiler, "-std=c++20", CONSUMER / f"{source}.cpp", "-o", build / program, *flags)

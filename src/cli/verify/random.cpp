@@ -345,6 +345,7 @@ void run(const Plan& plan, Report& report) {
     const Case c = make_case(plan.seed, plan.shard.index + report.cases * plan.shard.of);
     try {
       checker.check(c);
+      if (const auto other = with_matrices(c)) checker.check(*other);
     } catch (const std::exception& error) {
       report.findings.push_back(
           fmt::format("seed {}, case {} ({}): {}", plan.seed, c.number, c.family, tools::reason_of(error)));

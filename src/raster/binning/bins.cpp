@@ -91,7 +91,7 @@ namespace {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
       sorted.masked ^= left & -left;
       sorted.boxed |= left & -left;
-      sorted.boxes.set(k, pixel_box(packet[k], grid.width, grid.height), grid);
+      sorted.boxes.set(k, box_in(grid, packet[k]), grid);
     } else {
       sorted.quadrants[kept] = sorted.quadrants[n];
       for (std::size_t w = 0; w < SortedTriangles::kQuadrants; ++w)

@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, bool, CellBoxes& out) {
   std::uint64_t filled = 0;
   for (int i = 0; i < kPacket; ++i) {
-    const auto box = contract::pixel_box(triangles[i], grid.width, grid.height);
+    const auto box = box_in(grid, triangles[i]);
     if (box.empty()) continue;
     filled |= std::uint64_t{1} << i;
     out.set(static_cast<std::size_t>(i), box, grid);
@@ -33,7 +33,7 @@ std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, 
   std::uint64_t filled = 0;
   for (int i = 0; i < kPacket; i += kLanes) {
     const RecordLanes t(triangles + i, prefetch);
-    const BoxLanes box(t, grid.width, grid.height);
+    const BoxLanes box(t, grid.drawn());
     store_cell_boxes(t, box, grid, i, out);
     filled |= std::uint64_t{mask_bits(box.filled)} << i;
   }

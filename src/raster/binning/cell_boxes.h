@@ -15,14 +15,23 @@ namespace edgewise {
 struct CellGrid {
   int width, height;             // px, the image
   int cell_w_log2, cell_h_log2;  // px
+  int x0 = 0, y0 = 0;            // px, the first column and row that are drawn
   int columns() const { return (width + (1 << cell_w_log2) - 1) >> cell_w_log2; }
   int rows() const { return (height + (1 << cell_h_log2) - 1) >> cell_h_log2; }
   int cells() const { return columns() * rows(); }
+  contract::PixelBox drawn() const { return {x0, y0, width, height}; }
 };
 
 struct CellBox {
   std::uint16_t column0, row0, column1, row1;  // inclusive
 };
+
+// Of a triangle's pixel_box(), the part that is drawn.
+inline contract::PixelBox box_in(const CellGrid& grid, const ScreenTriangle& t) {
+  contract::PixelBox box = contract::pixel_box(t, grid.width, grid.height);
+  box.x0 = std::max(box.x0, grid.x0), box.y0 = std::max(box.y0, grid.y0);
+  return box;
+}
 
 inline constexpr int kPacket = 64;
 

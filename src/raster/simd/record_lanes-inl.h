@@ -101,18 +101,17 @@ HWY_INLINE V first_sample(V c) {
   return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(D{}, kHalf - 1)));
 }
 
-// contract::pixel_box() for a vector of triangles.
+// The part of contract::pixel_box() that lies in another box, for a vector of triangles.
 struct BoxLanes {
   V x0, y0, x1, y1;
   hn::Mask<D> filled;
 
-  HWY_INLINE BoxLanes(const RecordLanes& t, int width, int height) {
+  HWY_INLINE BoxLanes(const RecordLanes& t, const PixelBox& in) {
     const D d;
-    const V zero = hn::Zero(d);
-    x0 = hn::Max(first_sample(least(t.x)), zero);
-    x1 = hn::Min(first_sample(most(t.x)), hn::Set(d, width));
-    y0 = hn::Max(first_sample(least(t.y)), zero);
-    y1 = hn::Min(first_sample(most(t.y)), hn::Set(d, height));
+    x0 = hn::Max(first_sample(least(t.x)), hn::Set(d, in.x0));
+    x1 = hn::Min(first_sample(most(t.x)), hn::Set(d, in.x1));
+    y0 = hn::Max(first_sample(least(t.y)), hn::Set(d, in.y0));
+    y1 = hn::Min(first_sample(most(t.y)), hn::Set(d, in.y1));
     filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   }
 };

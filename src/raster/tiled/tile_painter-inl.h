@@ -32,8 +32,9 @@ using namespace contract;
 template <class Arithmetic>
 class TilePainter {
  public:
-  TilePainter(const TileTask& task, Tile& tile)
-      : task_(task), tile_(tile), small_(tile), masks_(*task.bins, task.cell) {}
+  // `occludes`: whether a block's zmax is not clear.
+  TilePainter(const TileTask& task, Tile& tile, bool occludes)
+      : task_(task), tile_(tile), small_(tile), masks_(*task.bins, task.cell), occludes_(occludes) {}
 
   HWY_NOINLINE void draw_segment(const Bins::Segment& segment) {
     Candidates* next = candidates_;
@@ -93,8 +94,26 @@ class TilePainter {
   SmallTriangles<Arithmetic> small_;
   Candidates candidates_[2];  // one is filled while the other waits
   Bins::MaskReader masks_;
-  bool occludes_ = false;
+  bool occludes_;
 };
+
+// Sets zmax to the farthest depth that a block holds. Returns whether that of any block is not clear.
+inline bool load_hiz(const TileTask& task, Tile& tile) {
+  const D d;
+  const int columns = (task.width() + kBlockSide - 1) / kBlockSide,
+            rows = (task.height() + kBlockSide - 1) / kBlockSide;
+  V least = hn::Set(d, wrap(kDepthClear));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const std::int32_t* const block = tile.depth() + (row * kMaxBlocks + column) * kBlockPixels;
+      V most = hn::Load(d, block);
+      for (int p = 1; p < kVectors; ++p) most = hn::Max(most, hn::Load(d, block + p * kLanes));
+      most = hn::MaxOfLanes(d, most);
+      least = hn::Min(least, most);
+      *tile.hiz.at(column, row) = hn::GetLane(most);
+    }
+  return hn::GetLane(least) < wrap(kDepthClear);
+}
 
 template <class Arithmetic>
 void draw_tile_in(const TileTask& task) {
@@ -111,7 +130,8 @@ void draw_tile_in(const TileTask& task) {
             [](const FramePlane& from, std::int32_t* buffer) { read_blocks(from, buffer); });
   tile.hiz.clear(task.width(), task.height());
 
-  TilePainter<Arithmetic> painter(task, tile);
+  const bool occludes = !task.part.clear && task.hierarchical_depth && load_hiz(task, tile);
+  TilePainter<Arithmetic> painter(task, tile, occludes);
   task.bins->for_each_segment_ahead(task.cell,
                                     [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
   painter.draw_rest();
