@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -112,7 +113,7 @@ std::vector<CameraMatrices> cameras_of(const Matrix& views, const Matrix& projec
 
 // A side in px; one too large for a frame stays so.
 int side(py::ssize_t length) {
-  return static_cast<int>(std::min(length, py::ssize_t{contract::kMaxImageSide} + 1));
+  return static_cast<int>(std::min(length, py::ssize_t{std::numeric_limits<int>::max()}));
 }
 
 // A plane of one frame, (height, width), or of several, (views, height, width), in the caller's memory.
