@@ -160,11 +160,11 @@ class Frames {
     is_stack = depth.ndim() == 3;
     if (!payload) return;
     payload_.emplace(*payload, "payload", written);
-    const auto shape = [](const Plane& p) { return std::array{p.views, p.height, p.width}; };
-    const auto strides = [](const Plane& p) { return std::array{p.view_stride, p.stride}; };
-    if (payload->ndim() != depth.ndim() || shape(*payload_) != shape(depth_))
+    const auto shape_of = [](const Plane& p) { return std::array{p.views, p.height, p.width}; };
+    const auto strides_of = [](const Plane& p) { return std::array{p.view_stride, p.stride}; };
+    if (payload->ndim() != depth.ndim() || shape_of(*payload_) != shape_of(depth_))
       throw std::invalid_argument("payload and depth must have the same shape");
-    if (strides(*payload_) != strides(depth_))
+    if (strides_of(*payload_) != strides_of(depth_))
       throw std::invalid_argument("payload and depth must have the same strides");
     if (written && payload_->first < depth_.end() && depth_.first < payload_->end())
       throw std::invalid_argument("payload and depth must not overlap");
@@ -409,7 +409,7 @@ Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& pro
   const lab::Conformance model{bits, ulps, guard_band, lab::find_depth_format(depth)};
   const auto cameras = cameras_of(views, projections);
   const FrontendOptions options = options_of(width, height, cull, threads);
-  lab::PortablePixels found;
+  lab::PortablePixels found{};
   self.for_each_view(cameras, 1, [&](const Drawable& drawable, std::size_t) {
     const Drawable seen = lab::with_camera(drawable, {width, height});
     found = lab::portable_pixels(lab::portable_triangles(seen, options), width, height, model, threads);
@@ -446,7 +446,8 @@ py::tuple diff(const T& a, const T& b, const std::optional<std::variant<Path, Wo
   if (mask_from) mask = samples_of(*mask_from);
   const MaskedDifference found = difference(a, b, mask ? &*mask : nullptr);
   const Difference& d = found.outside;
-  const py::object first = d.count == 0 ? py::object(py::none()) : py::make_tuple(d.first_x, d.first_y);
+  const py::object first =
+      d.count == 0 ? py::object(py::none()) : py::object(py::make_tuple(d.first_x, d.first_y));
   return py::make_tuple(d.count, d.largest, found.scale, first, found.masked, found.ignored,
                         as_array(d.picture.pixels, d.picture.width, d.picture.height));
 }
