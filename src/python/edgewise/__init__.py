@@ -1,5 +1,9 @@
 """Exact, reproducible rasterization of triangles on the CPU.
 
+    scene = edgewise.Scene.read_obj("bunny.obj")  # or edgewise.Scene(positions, triangles)
+    ids, depth = scene.draw(scene.camera(640 / 480), (640, 480), ids=True)
+    edgewise.write_image("ids.png", edgewise.id_colours(ids))
+
 Screen: pixel [0, 0] is top left, and y points down. A pixel's only sample lies at its centre, (x + 0.5, y + 0.5).
 Clip space, which is ``projection @ view @ world``: x points right, y up; visible where \\|x\\| <= w, \\|y\\| <= w and
 0 <= z <= w; z = 0 is nearest. The front of a triangle is the side from which its vertices appear clockwise on the screen.
@@ -31,7 +35,7 @@ DEPTH_CLEAR: int = _native.DEPTH_CLEAR  # the depth of pixels that no triangle c
 IDENTITY = np.eye(4)
 UNSTABLE: tuple[str, ...] = tuple(_native.UNSTABLE)  # the meanings of 0, 1, ... in Portable.reasons
 
-Path = Union[str, "PathLike[str]"]
+_Path = Union[str, "PathLike[str]"]
 
 
 class Camera(NamedTuple):
@@ -188,12 +192,12 @@ def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int6
     return np.concatenate([*views, np.empty(0, np.uint32)]), np.cumsum([0, *map(len, views)])
 
 
-def read_image(path: Path) -> NDArray[np.uint32]:
+def read_image(path: _Path) -> NDArray[np.uint32]:
     """A PNG or PPM file as colours 0xFFBBGGRR, shape (height, width). Alpha is ignored, 16-bit samples are rounded to 8."""
     return _native.read_image(path)
 
 
-def write_image(path: Path, colours: ArrayLike) -> None:
+def write_image(path: _Path, colours: ArrayLike) -> None:
     """Writes colours as an 8-bit PNG or PPM, by the extension.
 
     colours: shape (height, width), uint32, 0xAABBGGRR; or (height, width, 3 or 4), uint8: R, G, B. Alpha is ignored.
@@ -201,17 +205,17 @@ def write_image(path: Path, colours: ArrayLike) -> None:
     _native.write_image(path, _colours(colours))
 
 
-def read_pfm(path: Path) -> NDArray[np.float32]:
+def read_pfm(path: _Path) -> NDArray[np.float32]:
     """The depth map of a PFM file, shape (height, width)."""
     return _native.read_pfm(path)
 
 
-def write_pfm(path: Path, depth: ArrayLike) -> None:
+def write_pfm(path: _Path, depth: ArrayLike) -> None:
     """Writes a depth map, such as depth01() of a frame's depth, shape (height, width), as float32."""
     _native.write_pfm(path, _array(depth, np.float32))
 
 
-def diff(a: Path | ArrayLike, b: Path | ArrayLike, mask: Path | ArrayLike | None = None) -> Difference:
+def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | None = None) -> Difference:
     """Compares two pictures or two depth maps, as `edgewise diff` does.
 
     a, b: files (.png, .ppm; .pfm), or arrays: colours as write_image() takes them, or depths of any float type. For frames
@@ -279,7 +283,7 @@ class Scene(_Drawable):
             self.add_instance(self.add_mesh(positions, triangles, colours=colours, two_sided=two_sided))
 
     @classmethod
-    def read_obj(cls, path: Path) -> Scene:
+    def read_obj(cls, path: _Path) -> Scene:
         """The mesh of a Wavefront OBJ file as one instance, with its colours, and with the fronts that OBJ defines.
 
         Warns of what the reader skips, such as missing materials.
@@ -403,13 +407,13 @@ class Stream(_Drawable):
         self._native = _native.stream(_array(vertices, np.float32), *size, None if colours is None else _colours(colours))
 
     @classmethod
-    def read_tri(cls, path: Path) -> Stream:
+    def read_tri(cls, path: _Path) -> Stream:
         """Reads a .tri file, such as `edgewise capture` writes."""
         stream = cls.__new__(cls)
         stream._native = _native.read_tri(path)
         return stream
 
-    def write_tri(self, path: Path) -> None:
+    def write_tri(self, path: _Path) -> None:
         """Writes a .tri file."""
         self._native.write_tri(path)
 
