@@ -1,5 +1,6 @@
 #include "frontend/submission.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +29,25 @@ const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
     throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +
                                 std::to_string(scene.meshes.size()));
   return scene.meshes[instance.mesh];
+}
+
+void check_index(const char* what, std::size_t index, std::size_t count) {
+  if (index >= count)
+    throw std::invalid_argument(std::string(what) + " " + std::to_string(index) + " of " +
+                                std::to_string(count));
+}
+
+glm::vec3 checked_light(const glm::dvec3& towards) {
+  const double largest = std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)});
+  if (!(largest > 0.0 && std::isfinite(glm::dot(towards / largest, glm::dvec3(1.0)))))
+    throw std::invalid_argument("the direction towards the light must be finite and not 0");
+  return towards / largest;
+}
+
+double checked_aspect(double aspect) {
+  if (!(aspect > 0.0 && std::isfinite(aspect)))
+    throw std::invalid_argument("aspect must be finite and above 0");
+  return aspect;
 }
 
 void check_flags(const Mesh& mesh) {

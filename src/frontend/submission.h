@@ -1,5 +1,5 @@
-// The triangles of a scene in submission order, and checks that the front end, the queries and the C
-// interface share. Checks throw std::invalid_argument.
+// The triangles of a scene in submission order, and checks that the front end, the queries and the interfaces
+// for C and Python share. Checks throw std::invalid_argument.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,15 @@ std::size_t checked_count(std::size_t triangles, std::uint32_t first_id = 0);
 void check_threads(int threads);
 
 const Mesh& mesh_of(const Scene& scene, const Instance& instance);
+
+// `what` names what is counted.
+void check_index(const char* what, std::size_t index, std::size_t count);
+
+// A direction towards the light, within the range of float.
+glm::vec3 checked_light(const glm::dvec3& towards);
+
+// The aspect of frame_camera().
+double checked_aspect(double aspect);
 
 // The flags are empty or one per triangle.
 void check_flags(const Mesh& mesh);
