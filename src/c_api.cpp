@@ -1,6 +1,5 @@
 // The C interface (edgewise.h). No exception leaves it.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <exception>
 #include <glm/gtc/type_ptr.hpp>
@@ -177,23 +176,12 @@ edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const 
 }
 
 edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, const double matrix[16]) {
-  return status_of([&] {
-    auto& instances = meshes_of(scene).instances;
-    if (instance >= instances.size())
-      throw std::invalid_argument("instance " + std::to_string(instance) + " of " +
-                                  std::to_string(instances.size()));
-    instances[instance].matrix = matrix_of(matrix);
-  });
+  return status_of([&] { instance_at(meshes_of(scene), instance).matrix = matrix_of(matrix); });
 }
 
 edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction[3]) {
-  return status_of([&] {
-    const glm::dvec3 towards = glm::make_vec3(&given(direction, "direction"));
-    const double largest = std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)});
-    if (!(largest > 0.0 && std::isfinite(glm::dot(towards / largest, glm::dvec3(1.0)))))
-      throw std::invalid_argument("the direction towards the light must be finite and not 0");
-    meshes_of(scene).to_light = towards / largest;
-  });
+  return status_of(
+      [&] { meshes_of(scene).to_light = checked_light(glm::make_vec3(&given(direction, "direction"))); });
 }
 
 edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16],
@@ -202,11 +190,7 @@ edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16]
 }
 
 edgewise_status edgewise_frame_scene(edgewise_scene* scene, double aspect) {
-  return status_of([&] {
-    if (!(aspect > 0.0 && std::isfinite(aspect)))
-      throw std::invalid_argument("aspect must be finite and above 0");
-    frame_camera(meshes_of(scene), aspect);
-  });
+  return status_of([&] { frame_camera(meshes_of(scene), checked_aspect(aspect)); });
 }
 
 edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z,

@@ -42,43 +42,13 @@ void check_sizes(const std::string& a_path, const A& a, const std::string& b_pat
                                             a.width, a.height, b_path, b.width, b.height));
 }
 
-struct MaskedDifference {
-  Difference outside;         // of the mask
-  int scale;                  // the largest sample; 1 for depths
-  std::uint64_t masked = 0;   // pixels of the mask that are not black
-  std::uint64_t ignored = 0;  // of those, the pixels that differ
-};
-
-auto& pixels_of(Samples& image) {
-  return image.pixels;
-}
-auto& pixels_of(DepthMap& map) {
-  return map.depth01;
-}
-
-int scale_of(const Samples& a, const Samples& b) {
-  return a.deep || b.deep ? 65535 : 255;
-}
-int scale_of(const DepthMap&, const DepthMap&) {
-  return 1;
-}
-
 template <typename T>
-MaskedDifference masked_difference(const DiffOptions& o, T a, T b) {
+MaskedDifference masked_difference(const DiffOptions& o, const T& a, const T& b) {
   check_sizes(o.a, a, o.b, b);
-  MaskedDifference result{difference(a, b), scale_of(a, b)};
-  if (o.mask.empty()) return result;
+  if (o.mask.empty()) return difference(a, b, nullptr);
   const Samples mask = read_samples(o.mask);
   check_sizes(o.a, a, o.mask, mask);
-  const std::uint64_t all = result.outside.count;
-  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-    if (mask.pixels[i] == Samples::Pixel{}) continue;
-    ++result.masked;
-    pixels_of(b)[i] = pixels_of(a)[i];
-  }
-  result.outside = difference(a, b);
-  result.ignored = all - result.outside.count;
-  return result;
+  return difference(a, b, &mask);
 }
 
 int diff(DiffOptions o) {

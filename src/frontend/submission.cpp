@@ -1,5 +1,6 @@
 #include "frontend/submission.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -25,6 +26,26 @@ const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
     throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +
                                 std::to_string(scene.meshes.size()));
   return scene.meshes[instance.mesh];
+}
+
+Instance& instance_at(Scene& scene, std::size_t index) {
+  if (index >= scene.instances.size())
+    throw std::invalid_argument("instance " + std::to_string(index) + " of " +
+                                std::to_string(scene.instances.size()));
+  return scene.instances[index];
+}
+
+glm::vec3 checked_light(const glm::dvec3& towards) {
+  const double largest = std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)});
+  if (!(largest > 0.0 && std::isfinite(glm::dot(towards / largest, glm::dvec3(1.0)))))
+    throw std::invalid_argument("the direction towards the light must be finite and not 0");
+  return towards / largest;
+}
+
+double checked_aspect(double aspect) {
+  if (!(aspect > 0.0 && std::isfinite(aspect)))
+    throw std::invalid_argument("aspect must be finite and above 0");
+  return aspect;
 }
 
 void check_flags(const Mesh& mesh) {

@@ -1,5 +1,5 @@
-// The triangles of a scene in submission order, and checks that the front end, the queries and the C
-// interface share. Checks throw std::invalid_argument.
+// The triangles of a scene in submission order, and checks that the front end, the queries and the interfaces
+// for C and Python share. Checks throw std::invalid_argument.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +16,14 @@ std::size_t checked_count(std::size_t triangles);
 void check_threads(int threads);
 
 const Mesh& mesh_of(const Scene& scene, const Instance& instance);
+
+Instance& instance_at(Scene& scene, std::size_t index);
+
+// A direction towards the light, within the range of float.
+glm::vec3 checked_light(const glm::dvec3& towards);
+
+// The aspect of frame_camera().
+double checked_aspect(double aspect);
 
 // The flags are empty or one per triangle.
 void check_flags(const Mesh& mesh);

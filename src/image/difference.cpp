@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
@@ -51,8 +52,8 @@ Difference compare(int width, int height, const Delta& delta, const Grey& grey) 
   return result;
 }
 
-template <typename Picture>
-void require_same_size(const Picture& a, const Picture& b) {
+template <typename A, typename B>
+void require_same_size(const A& a, const B& b) {
   if (a.width != b.width || a.height != b.height)
     throw std::invalid_argument("sizes differ: " + size_text(a.width, a.height) + " and " +
                                 size_text(b.width, b.height));
@@ -70,6 +71,22 @@ double depth_delta(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0.0;
   const double delta = std::fabs(static_cast<double>(a) - b);
   return std::isnan(delta) ? std::numeric_limits<double>::infinity() : delta;
+}
+
+template <typename Picture, typename Pixels>
+MaskedDifference compare_outside(const Picture& a, Picture b, Pixels pixels, int scale, const Samples* mask) {
+  MaskedDifference result{difference(a, b), scale};
+  if (mask == nullptr) return result;
+  require_same_size(a, *mask);
+  const std::uint64_t all = result.outside.count;
+  for (std::size_t i = 0; i < mask->pixels.size(); ++i) {
+    if (mask->pixels[i] == Samples::Pixel{}) continue;
+    ++result.masked;
+    (b.*pixels)[i] = (a.*pixels)[i];
+  }
+  result.outside = difference(a, b);
+  result.ignored = all - result.outside.count;
+  return result;
 }
 
 }  // namespace
@@ -125,6 +142,15 @@ Image enlarge(const Image& image, int factor) {
           image.pixels[static_cast<std::size_t>(y / factor) * static_cast<std::size_t>(image.width) +
                        static_cast<std::size_t>(x / factor)]);
   return large;
+}
+
+MaskedDifference difference(const Samples& a, Samples b, const Samples* mask) {
+  const int scale = a.deep || b.deep ? 65535 : 255;
+  return compare_outside(a, std::move(b), &Samples::pixels, scale, mask);
+}
+
+MaskedDifference difference(const DepthMap& a, DepthMap b, const Samples* mask) {
+  return compare_outside(a, std::move(b), &DepthMap::depth01, 1, mask);
 }
 
 }  // namespace edgewise

@@ -49,4 +49,15 @@ std::vector<unsigned char> rgb_bytes(const Image& image);
 // 255.
 Difference difference(const Samples& a, const Samples& b);
 
+struct MaskedDifference {
+  Difference outside;         // of the mask
+  int scale;                  // the largest sample, 255 or 65535; 1 for depths
+  std::uint64_t masked = 0;   // pixels of the mask that are not black
+  std::uint64_t ignored = 0;  // of those, the pixels that differ
+};
+// Pixels count as equal where the mask is not black; null: no mask. Throws std::invalid_argument if sizes
+// differ.
+MaskedDifference difference(const Samples& a, Samples b, const Samples* mask);
+MaskedDifference difference(const DepthMap& a, DepthMap b, const Samples* mask);
+
 }  // namespace edgewise

@@ -1,5 +1,9 @@
 #include "lab/view_space.h"
 
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
 #include "core/trigonometry.h"
 #include "frontend/shade.h"
 #include "frontend/view.h"
@@ -63,6 +67,27 @@ std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingSc
   for (std::size_t i = 1; method.by_normal && i < fronts.size(); ++i)
     if (seen.mesh().has_flag(i, kSameFace)) fronts[i] = fronts[i - 1];
   return fronts;
+}
+
+Drawable with_camera(const Drawable& drawable, Size size) {
+  const auto* const scene = std::get_if<Scene>(&drawable);
+  if (scene == nullptr || !scene->matrices) return drawable;
+  const View view(*scene, size.width, size.height);
+  if (view.has_z)
+    throw std::invalid_argument("this needs an affine view and a perspective projection (camera.h)");
+  constexpr double kFarthest = 1e30;  // in place of infinity
+  Scene seen = *scene;
+  seen.matrices.reset();
+  seen.camera = {.fov_y = std::numbers::pi_v<float> / 2.0f,
+                 .near_z = static_cast<float>(view.volume.near_z),
+                 .far_z = static_cast<float>(std::min(view.volume.far_z, kFarthest))};
+  const glm::dmat3 to_camera = glm::inverse(pixels_of(seen.camera, size.width, size.height)) * view.pixels;
+  for (Instance& instance : seen.instances) {
+    const glm::dmat4 model = model_matrix(instance);
+    instance.matrix.emplace(to_camera * glm::dmat3(model));
+    (*instance.matrix)[3] = glm::dvec4(to_camera * (glm::dvec3(model[3]) - view.origin), 1.0);
+  }
+  return seen;
 }
 
 glm::vec3 line_of_sight(const Camera& camera) {

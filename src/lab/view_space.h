@@ -19,6 +19,11 @@ ClippingScene in_view_space(const Scene& scene, Size size);
 // the others each triangle. `seen` comes from in_view_space().
 std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingScene& seen);
 
+// A drawable that shows the same without a scene's matrices, for code that knows only cameras: the camera is
+// at the origin, and the instances' matrices map to its space. Near and far are rounded to float. Throws
+// std::invalid_argument for matrices that are not of a usual perspective (camera.h).
+Drawable with_camera(const Drawable& drawable, Size size);
+
 glm::vec3 line_of_sight(const Camera& camera);
 // The direction in the space of an instance's mesh: its product with a normal there has the sign that the
 // world-space ones have, also if the instance scales or mirrors. The instance must have an invertible matrix.

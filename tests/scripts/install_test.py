@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Installs the build and uses the copy as others would: tests/consumer, by CMake and by pkg-config.
+"""Installs the build and uses the copy as others would: tests/consumer, by CMake and by pkg-config. Programs in C, C++, and
+Python, where python_test.py has installed the module, draw the same picture.
 usage: install_test.py BUILD
 
 Where the source is built along with the consumer (add_subdirectory, FetchContent), and for a shared library, the whole
@@ -18,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 CONSUMER = ROOT / "tests" / "consumer"
 BUILD = Path(sys.argv.pop(1))
+PYTHON = BUILD / "python" / "venv" / "bin" / "python"
 FULL = "EDGEWISE_FULL" in os.environ
 # All that lets a compiler round otherwise. -march=native implies -mfma where the processor has it.
 FAST = "-O3 -march=native -ffast-math -ffp-contract=fast".split()
@@ -60,15 +62,18 @@ class Installed(unittest.TestCase):
     def use(self, folder, environment=None):
         """Runs the consumer's programs, which were built in `folder`."""
         run(folder / "frames", env=environment)
-        self.assertEqual(run(folder / "square_c", env=environment), run(folder / "square", env=environment))
-        square = folder / "mesh.obj"
-        square.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        square = run(folder / "square", env=environment)
+        self.assertEqual(run(folder / "square_c", env=environment), square)
+        if PYTHON.exists():
+            self.assertEqual(run(PYTHON, CONSUMER / "square.py", env=environment), square)
+        quad = folder / "mesh.obj"
+        quad.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         run(folder / "picture", cwd=folder, env=environment)
         self.assertTrue((folder / "mesh.png").read_bytes().startswith(b"\x89PNG"))
         said = run(folder / "consumer", cwd=folder, env=environment)
         self.assertRegex(said, r"^triangle \d, depth 0\.\d{6}\n$")
         self.assertTrue((folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
-        self.assertRegex(run(folder / "consumer", square, cwd=folder, env=environment), "^triangle [01], ")
+        self.assertRegex(run(folder / "consumer", quad, cwd=folder, env=environment), "^triangle [01], ")
         missing = subprocess.run([folder / "consumer", "missing.obj"], capture_output=True, text=True, check=False,
                                  env={**os.environ, **(environment or {})})
         self.assertEqual((missing.returncode, missing.stderr.count("missing.obj")), (1, 1))

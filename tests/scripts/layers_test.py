@@ -19,6 +19,7 @@ BELOW = {
     "src/image": ["core", "edgewise/scene.h", "edgewise/frontend.h", "edgewise/framebuffer.h"],
     "src/draw.cpp": ["core", "scene", "frontend", "raster"],
     "src/c_api.cpp": ["core", "scene", "frontend", "raster", "queries"],
+    "src/python": ["core", "scene", "image", "frontend", "raster", "queries", "lab"],
     "src/lab": ["core", "scene", "frontend", "raster"],
     "src/support": ["core", "scene", "image", "edgewise/backend.h", "edgewise/frontend.h"],
     "src/viewer": ["core", "scene", "image", "frontend", "raster", "lab", "support"],

@@ -1,0 +1,207 @@
+"""Identities of draws, and what they take and give."""
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import edgewise
+from support import ASPECT, CAMERA, MOVED, SIZE, same, scene, stream, triangles
+
+CAMERAS = [CAMERA, edgewise.Camera(edgewise.look_at((-3, 1, 2), (0, 0, 0)), edgewise.perspective(1.1, ASPECT, 0.2)),
+           edgewise.Camera(edgewise.look_at((0, 0, 3), (0, 0, 0)), edgewise.orthographic(-2, 2, -1, 1, 0, 9))]
+WIDTH, HEIGHT = SIZE
+SCISSOR = (11, 7, 50, 31)
+
+
+def part(plane, rectangle=SCISSOR):
+    x, y, width, height = rectangle
+    return plane[y:y + height, x:x + width]
+
+
+@pytest.mark.parametrize("ids", [False, True])
+@pytest.mark.parametrize("camera", range(len(CAMERAS)))
+def test_backends_and_threads_draw_the_same(camera, ids):
+    drawn = scene()
+    frames = [drawn.draw(CAMERAS[camera], SIZE, ids=ids, backend=backend, threads=threads)
+              for backend in edgewise.BACKENDS for threads in (1, 3)]
+    assert (frames[0].depth < edgewise.DEPTH_CLEAR).any()
+    assert all(same(frames[0], frame) for frame in frames)
+    assert len({edgewise.pixel_hash(frame) for frame in frames}) == 1
+
+
+def test_several_views_are_single_views():
+    drawn = scene()
+    frames = drawn.draw(CAMERAS, SIZE, ids=True)
+    assert frames.payload.shape == frames.depth.shape == (3, HEIGHT, WIDTH)
+    for i, camera in enumerate(CAMERAS):
+        assert same((frames.payload[i], frames.depth[i]), drawn.draw(camera, SIZE, ids=True))
+    assert drawn.draw([], SIZE).depth.shape == (0, HEIGHT, WIDTH)
+    assert drawn.draw(CAMERAS[:1], SIZE).depth.shape == (1, HEIGHT, WIDTH)
+
+
+def test_one_call_is_a_scene():
+    positions, indices, _ = triangles()
+    frame = edgewise.draw(positions, indices, CAMERA, SIZE, threads=2)
+    ids, depth = frame
+    assert same(frame, edgewise.Scene(positions, indices).draw(CAMERA, SIZE, ids=True))
+    assert ids.dtype == depth.dtype == np.uint32 and ids.shape == depth.shape == (HEIGHT, WIDTH)
+    assert ((ids == edgewise.BACKGROUND_ID) == (depth == edgewise.DEPTH_CLEAR)).all()
+
+
+def test_draws_add_up():
+    (a, a_indices, a_colours), (b, b_indices, b_colours) = triangles(50, 1), triangles(50, 2)
+    first, second = edgewise.Scene(a, a_indices, colours=a_colours), edgewise.Scene(b, b_indices, colours=b_colours)
+    both = edgewise.Scene(a, a_indices, colours=a_colours)
+    both.add_instance(both.add_mesh(b, b_indices, colours=b_colours))
+    frame = first.draw(CAMERA, SIZE)
+    assert second.draw(CAMERA, SIZE, onto=frame) is not None
+    assert same(frame, both.draw(CAMERA, SIZE))
+    stack = first.draw(CAMERAS, SIZE)
+    second.draw(CAMERAS, SIZE, onto=stack, threads=2)
+    assert same(stack, both.draw(CAMERAS, SIZE))
+
+
+def test_what_is_drawn_onto_is_returned_and_may_be_cleared():
+    drawn = scene()
+    frame = drawn.draw(CAMERAS[1], SIZE)
+    result = drawn.draw(CAMERA, SIZE, onto=frame, clear=True, background=7)
+    assert result.payload is frame.payload and result.depth is frame.depth
+    assert same(frame, drawn.draw(CAMERA, SIZE, background=7))
+    assert (frame.payload[frame.depth == edgewise.DEPTH_CLEAR] == 7).all()
+
+
+def test_a_scissor_is_a_crop():
+    drawn = scene()
+    whole = drawn.draw(CAMERA, SIZE)
+    frame = drawn.draw(CAMERA, SIZE, scissor=SCISSOR, background=5)
+    expected = np.full((HEIGHT, WIDTH), 5, np.uint32), np.full((HEIGHT, WIDTH), edgewise.DEPTH_CLEAR, np.uint32)
+    for plane, of_whole in zip(expected, drawn.draw(CAMERA, SIZE, background=5)):
+        part(plane)[:] = part(of_whole)
+    assert same(frame, expected)
+    other = drawn.draw(CAMERAS[1], SIZE)
+    kept = [plane.copy() for plane in other]
+    drawn.draw(CAMERA, SIZE, onto=other, clear=True, scissor=SCISSOR)
+    for plane, of_whole in zip(kept, whole):
+        part(plane)[:] = part(of_whole)
+    assert same(other, kept)
+    assert (drawn.draw(CAMERA, SIZE, scissor=(200, 0, 5, 5)).depth == edgewise.DEPTH_CLEAR).all()
+
+
+@pytest.mark.parametrize("backend", edgewise.BACKENDS)
+def test_depth_only(backend):
+    drawn = scene()
+    whole = drawn.draw(CAMERA, SIZE)
+    frame = drawn.draw(CAMERA, SIZE, depth_only=True, backend=backend)
+    assert frame.payload is None and np.array_equal(frame.depth, whole.depth)
+    into = edgewise.Frame(np.full((HEIGHT, WIDTH), 3, np.uint32), np.empty((HEIGHT, WIDTH), np.uint32))
+    drawn.draw(CAMERA, SIZE, onto=into, clear=True, depth_only=True, backend=backend)
+    assert (into.payload == 3).all() and np.array_equal(into.depth, whole.depth)
+    drawn.draw(CAMERA, SIZE, onto=edgewise.Frame(None, into.depth), backend=backend)
+    assert np.array_equal(into.depth, whole.depth)
+
+
+def test_planes_may_be_parts_of_larger_arrays():
+    drawn = scene()
+    payloads, depths = (np.full((2, HEIGHT + 9, WIDTH + 5), 1, np.uint32) for _ in range(2))
+    into = edgewise.Frame(payloads[:, 4:4 + HEIGHT, 2:2 + WIDTH], depths[:, 4:4 + HEIGHT, 2:2 + WIDTH])
+    drawn.draw(CAMERAS[:2], SIZE, onto=into, clear=True)
+    assert same(into, drawn.draw(CAMERAS[:2], SIZE))
+    for plane, inner in zip((payloads, depths), into):
+        inner[:] = 1
+        assert (plane == 1).all()
+    assert same(drawn.draw(CAMERA, SIZE, onto=edgewise.Frame(into.payload[1], into.depth[1]), clear=True),
+                drawn.draw(CAMERA, SIZE))
+
+
+def test_inputs_need_not_be_contiguous_or_of_the_type():
+    positions, indices, colours = triangles()
+    wide = np.zeros((len(positions), 5))
+    wide[:, 4:1:-1] = positions
+    expected = edgewise.Scene(positions, indices, colours=colours).draw(CAMERA, SIZE)
+    r, g, b = (colours >> shift & 255 for shift in (0, 8, 16))
+    for other in (edgewise.Scene(wide[:, 4:1:-1], np.asfortranarray(indices.astype(np.int64)), colours=colours.astype(np.int64)),
+                  edgewise.Scene(positions.tolist(), indices.tolist(), colours=np.stack([r, g, b], -1).astype(np.uint8))):
+        assert same(other.draw(CAMERA, SIZE), expected)
+    view = np.asfortranarray(CAMERA.view)
+    assert same(edgewise.Scene(positions, indices, colours=colours).draw(edgewise.Camera(view, CAMERA.projection.tolist()), SIZE),
+                expected)
+
+
+def test_a_scene_copies_its_input():
+    positions, indices, colours = triangles()
+    drawn = edgewise.Scene(positions, indices, colours=colours)
+    before = drawn.draw(CAMERA, SIZE)
+    positions[:] = 0
+    indices[:] = 0
+    colours[:] = 0
+    assert same(drawn.draw(CAMERA, SIZE), before)
+
+
+def test_instances_move_and_lights_turn():
+    positions, indices, colours = triangles()
+    moved, placed = edgewise.Scene(positions, indices, colours=colours), edgewise.Scene()
+    placed.add_instance(placed.add_mesh(positions, indices, colours=colours), MOVED)
+    assert not same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
+    moved.set_instance(0, MOVED)
+    assert same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
+    moved.set_light((-1, 0.25, 0.5))
+    assert not np.array_equal(moved.draw(CAMERA, SIZE).payload, placed.draw(CAMERA, SIZE).payload)
+    assert same(moved.draw(CAMERA, SIZE, shade=False), placed.draw(CAMERA, SIZE, shade=False))
+
+
+def test_two_sided_triangles_are_not_culled():
+    positions, indices, _ = triangles()
+    one, two = (edgewise.Scene(positions, indices, two_sided=sides) for sides in (False, True))
+    assert same(two.draw(CAMERA, SIZE, ids=True, cull="both"), one.draw(CAMERA, SIZE, ids=True))
+    assert (one.draw(CAMERA, SIZE, cull="both").depth == edgewise.DEPTH_CLEAR).all()
+
+
+def test_the_scenes_own_camera_sees_all_of_it():
+    drawn = scene()
+    low, high = drawn.bounds()
+    corners = np.array([[x, y, z, 1] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    camera = drawn.camera(ASPECT)
+    frame = drawn.draw(camera, SIZE, ids=True)
+    assert (frame.depth < edgewise.DEPTH_CLEAR).any()
+    seen = [frame.payload[0], frame.payload[-1], frame.payload[:, 0], frame.payload[:, -1]]
+    assert all((edge == edgewise.BACKGROUND_ID).all() for edge in seen)
+    assert ((corners @ (camera.projection @ camera.view).T)[:, 3] > 0).all()
+    assert np.isinf(edgewise.Scene().bounds()[0]).all()
+
+
+def test_streams_are_drawn_as_their_size_says():
+    drawn = stream()
+    whole = drawn.draw()
+    assert whole.depth.shape == (HEIGHT, WIDTH)
+    assert all(same(whole, drawn.draw(backend=backend, threads=2)) for backend in edgewise.BACKENDS)
+    assert same([plane[:30, :40] for plane in whole], drawn.draw((40, 30)))
+    ids = drawn.draw(ids=True).payload
+    assert set(np.unique(ids)) <= {*range(40), edgewise.BACKGROUND_ID} and (ids < 40).any()
+    assert drawn.size == SIZE
+
+
+def test_draws_release_the_gil():
+    drawn = scene()
+    worker = threading.Thread(target=lambda: drawn.draw([CAMERA] * 400, (300, 200), backend="naive"))
+    worker.start()
+    turns = 0
+    while worker.is_alive():
+        turns += 1
+        time.sleep(0.001)
+    assert turns > 10  # held, it is one or two
+
+
+def test_threads_may_share_a_scene():
+    drawn, frames = scene(), {}
+    expected = [drawn.draw(camera, SIZE) for camera in CAMERAS]
+
+    def work(i):
+        frames[i] = [drawn.draw(CAMERAS[i % 3], SIZE, threads=2) for _ in range(20)]
+        drawn.add_mesh(*triangles()[:2])
+    workers = [threading.Thread(target=work, args=(i,)) for i in range(6)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert all(same(frame, expected[i % 3]) for i in range(6) for frame in frames[i])

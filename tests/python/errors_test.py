@@ -1,0 +1,128 @@
+"""Bad arguments are ValueError with the library's text, and change nothing."""
+import numpy as np
+import pytest
+
+import edgewise
+from support import CAMERA, SIZE, same, scene, stream, triangles
+
+WIDTH, HEIGHT = SIZE
+POSITIONS, INDICES, COLOURS = triangles()
+IDENTITY = np.eye(4)
+
+
+def plane(*shape, dtype=np.uint32):
+    return np.zeros(shape or (HEIGHT, WIDTH), dtype)
+
+
+def read_only(array):
+    array.flags.writeable = False
+    return array
+
+
+def onto(payload, depth, camera=CAMERA, **options):
+    return lambda: scene().draw(camera, SIZE, onto=edgewise.Frame(payload, depth), **options)
+
+
+def twice(make):
+    one = make()
+    return one, one
+
+
+CASES = {
+    "positions of 2 columns": ("positions", lambda: edgewise.Scene(POSITIONS[:, :2], INDICES)),
+    "flat positions": ("positions", lambda: edgewise.Scene(POSITIONS.ravel(), INDICES)),
+    "triangles of 2 columns": ("triangles", lambda: edgewise.Scene(POSITIONS, INDICES[:, :2])),
+    "triangles of floats": ("integers", lambda: edgewise.Scene(POSITIONS, INDICES.astype(float))),
+    "negative index": ("out of range", lambda: edgewise.Scene(POSITIONS, INDICES.astype(int) - 1)),
+    "index of 33 bits": ("out of range", lambda: edgewise.Scene(POSITIONS, INDICES.astype(np.int64) + (1 << 32))),
+    "missing vertex": ("triangle 59 names vertex 179 of 179", lambda: edgewise.Scene(POSITIONS[:-1], INDICES)),
+    "no triangles": ("both", lambda: edgewise.Scene(POSITIONS)),
+    "too few colours": ("colours", lambda: edgewise.Scene(POSITIONS, INDICES, colours=COLOURS[1:])),
+    "colours of floats": ("colours", lambda: edgewise.Scene(POSITIONS, INDICES, colours=COLOURS / 2)),
+    "instance of a missing mesh": ("mesh 2 of 2", lambda: scene().add_instance(2)),
+    "matrix of 3 rows": ("matrix", lambda: scene().add_instance(0, IDENTITY[:3])),
+    "missing instance": ("instance 3 of 3", lambda: scene().set_instance(3, IDENTITY)),
+    "light 0": ("light", lambda: scene().set_light((0, 0, 0))),
+    "aspect 0": ("aspect", lambda: scene().camera(0)),
+    "fov 0": ("field of view", lambda: edgewise.perspective(0, 1, 1)),
+    "near 0": ("near", lambda: edgewise.perspective(1, 1, 0)),
+    "empty range": ("range|left", lambda: edgewise.orthographic(1, 1, 0, 1, 0, 1)),
+    "k of 2 rows": ("k must", lambda: edgewise.intrinsics(IDENTITY[:2, :3], 4, 4, 1)),
+    "projection of 3 rows": ("projection", lambda: edgewise.projection_from(IDENTITY[:3])),
+    "view of 3 rows": ("views", lambda: scene().draw(edgewise.Camera(IDENTITY[:3], IDENTITY), SIZE)),
+    "singular view": ("inverse", lambda: scene().draw(edgewise.Camera(np.zeros((4, 4)), IDENTITY), SIZE)),
+    "camera as a tuple": ("views", lambda: scene().draw((IDENTITY, IDENTITY), SIZE)),
+    "size 0": ("frame", lambda: scene().draw(CAMERA, (0, 5))),
+    "negative size": ("negative", lambda: scene().draw(CAMERA, (5, -5))),
+    "size too large": ("20000", lambda: scene().draw(CAMERA, (20000, 1))),
+    "cull": ("culling mode 'bck'; did you mean 'back'", lambda: scene().draw(CAMERA, SIZE, cull="bck")),
+    "backend": ("did you mean 'tiled'", lambda: scene().draw(CAMERA, SIZE, backend="tile")),
+    "threads 0": ("threads", lambda: scene().draw(CAMERA, SIZE, threads=0)),
+    "threads 257": ("threads", lambda: scene().draw(CAMERA, SIZE, threads=257)),
+    "negative scissor": ("scissor", lambda: scene().draw(CAMERA, SIZE, scissor=(0, 0, -1, 1))),
+    "onto another size": ("shape", onto(plane(5, 5), plane(5, 5))),
+    "payload of another size": ("same shape", onto(plane(5, 5), plane())),
+    "onto one view for one in a list": ("shape", onto(plane(), plane(), [CAMERA])),
+    "payload of int32": ("payload must be an array of uint32", onto(plane(dtype=np.int32), plane())),
+    "depth of float32": ("depth must be an array of uint32", onto(plane(), plane(dtype=np.float32))),
+    "depth of the other byte order": ("uint32", onto(plane(), plane(dtype=">u4"))),
+    "payload that is read-only": ("payload must not be read-only", onto(read_only(plane()), plane())),
+    "depth that is read-only": ("depth must not be read-only", onto(plane(), read_only(plane()))),
+    "columns with gaps": ("contiguous", onto(*(plane(HEIGHT, 2 * WIDTH)[:, ::2] for _ in range(2)))),
+    "rows from below": ("follow", onto(*(plane()[::-1] for _ in range(2)))),
+    "Fortran's order": ("contiguous", onto(*(np.asfortranarray(plane()) for _ in range(2)))),
+    "planes of different strides": ("strides", onto(plane(HEIGHT, WIDTH + 1)[:, 1:], plane())),
+    "one plane for both": ("overlap", onto(*twice(plane))),
+    "views that overlap": ("follow|read-only", onto(*(np.lib.stride_tricks.as_strided(
+        plane(), (2, HEIGHT, WIDTH), (0, 4 * WIDTH, 4)) for _ in range(2)), [CAMERA, CAMERA])),
+    "unaligned": ("aligned", onto(*(np.zeros(4 * WIDTH * HEIGHT + 1, np.uint8)[1:].view(np.uint32).reshape(HEIGHT, WIDTH)
+                                    for _ in range(2)))),
+    "hash of several views": ("one view", lambda: edgewise.pixel_hash(scene().draw([CAMERA], SIZE))),
+    "hash of nothing": ("frame", lambda: edgewise.pixel_hash(edgewise.Frame(plane(0, 5), plane(0, 5)))),
+    "barycentrics of several views": ("one view", lambda: scene().barycentrics(scene().draw([CAMERA], SIZE, ids=True), CAMERA)),
+    "barycentrics without ids": ("cannot be read", lambda: scene().barycentrics(scene().draw(CAMERA, SIZE, depth_only=True), CAMERA)),
+    "barycentrics of another scene": ("pixel", lambda: edgewise.Scene(POSITIONS[::-1], INDICES).barycentrics(
+        scene().draw(CAMERA, SIZE, ids=True), CAMERA)),
+    "pixels of missing triangles": ("id", lambda: edgewise.Scene(POSITIONS[:3], INDICES[:1]).pixels_per_triangle(
+        scene().draw(CAMERA, SIZE, ids=True))),
+    "visible triangles of colours": ("id", lambda: edgewise.visible_triangles(scene().draw(CAMERA, SIZE))),
+    "box of 2 coordinates": ("low", lambda: scene().visible([0, 0], [1, 1], CAMERA, scene().draw(CAMERA, SIZE))),
+    "fewer high corners": ("high", lambda: scene().visible(np.zeros((2, 3)), np.zeros((1, 3)), CAMERA, scene().draw(CAMERA, SIZE))),
+    "vertices of 2 coordinates": ("vertices", lambda: edgewise.Stream(np.zeros((4, 3, 2)), SIZE)),
+    "bits 0": ("bits", lambda: stream().portable(bits=0)),
+    "ulps -1": ("units", lambda: stream().portable(ulps=-1)),
+    "depth format": ("depth format", lambda: stream().portable(depth="d25")),
+    "portable threads 0": ("threads", lambda: stream().portable(threads=0)),
+    "portable of a parallel projection": ("perspective", lambda: scene().portable(edgewise.Camera(
+        IDENTITY, edgewise.orthographic(-1, 1, -1, 1, -2, 2)), SIZE)),
+    "needs of a parallel projection": ("perspective", lambda: scene().needs(edgewise.Camera(
+        IDENTITY, edgewise.orthographic(-1, 1, -1, 1, -2, 2)), SIZE)),
+    "needs of no frames": ("0 cameras", lambda: scene().needs([], SIZE)),
+    "needs threads 0": ("threads", lambda: stream().needs(threads=0)),
+    "displacement -1": ("displacement", lambda: stream().needs(displacement=-1)),
+    "sizes that differ": ("sizes differ", lambda: edgewise.diff(plane(4, 4), plane(4, 5))),
+    "mask of another size": ("sizes differ", lambda: edgewise.diff(plane(4, 4), plane(4, 4), plane(4, 5))),
+    "colours against depths": ("cannot be compared", lambda: edgewise.diff(plane(4, 4), np.zeros((4, 4)))),
+    "picture of 1 row": ("shape", lambda: edgewise.diff(plane(4), plane(4))),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_bad_argument_is_a_value_error(name):
+    text, call = CASES[name]
+    with pytest.raises(ValueError, match=text):
+        call()
+
+
+def test_a_failed_call_changes_nothing():
+    drawn = scene()
+    frame = drawn.draw(CAMERA, SIZE)
+    kept = [p.copy() for p in frame]
+    for bad in ({"threads": 0}, {"cull": "?"}, {"backend": "?"}, {"scissor": (0, 0, 0, -1)}):
+        with pytest.raises(ValueError):
+            drawn.draw(CAMERA, SIZE, onto=frame, clear=True, **bad)
+    with pytest.raises(ValueError):
+        drawn.add_mesh(POSITIONS[:2], INDICES)
+    assert same(frame, kept)
+    assert list(drawn.first_ids()) == [0, 60, 80, 140]
+    assert same(drawn.draw(CAMERA, SIZE), kept)

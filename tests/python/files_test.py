@@ -1,0 +1,201 @@
+"""Files, and what the program says of the same input. EDGEWISE_PROGRAM is the program."""
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import edgewise
+from support import ASPECT, CAMERA, SIZE, same, scene, stream
+
+WIDTH, HEIGHT = SIZE
+OBJ = "v -1 -1 0\nv 1 -1 0.2\nv 1 1 0\nv -1 1 -0.2\nv 0 0 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"
+
+
+def program(*arguments, status=0):
+    if "EDGEWISE_PROGRAM" not in os.environ:
+        pytest.skip("EDGEWISE_PROGRAM is not set")
+    done = subprocess.run([os.environ["EDGEWISE_PROGRAM"], *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode == status, done.stderr
+    return done.stdout
+
+
+@pytest.fixture
+def obj(tmp_path):
+    path = tmp_path / "pyramid.obj"
+    path.write_text(OBJ)
+    return path
+
+
+@pytest.fixture
+def tri(tmp_path):
+    path = tmp_path / "stream.tri"
+    stream().write_tri(path)
+    return path
+
+
+@pytest.mark.parametrize("extension", ["png", "ppm"])
+def test_pictures_come_back(tmp_path, extension):
+    colours = scene().draw(CAMERA, SIZE).payload
+    path = tmp_path / f"picture.{extension}"
+    edgewise.write_image(path, colours)
+    assert np.array_equal(edgewise.read_image(str(path)), colours)
+    bytes_of = np.ascontiguousarray(colours).view(np.uint8).reshape(HEIGHT, WIDTH, 4)
+    for channels in (3, 4):
+        edgewise.write_image(path, bytes_of[..., :channels])
+        assert np.array_equal(edgewise.read_image(path), colours)
+
+
+def test_depth_maps_come_back(tmp_path):
+    depth = edgewise.depth01(scene().draw(CAMERA, SIZE).depth)
+    edgewise.write_pfm(tmp_path / "depth.pfm", depth)
+    assert np.array_equal(edgewise.read_pfm(tmp_path / "depth.pfm"), depth.astype(np.float32))
+
+
+def test_streams_come_back(tri):
+    read = edgewise.Stream.read_tri(tri)
+    assert read.size == SIZE and same(read.draw(), stream().draw())
+
+
+def test_a_stream_has_the_programs_hash(tri):
+    assert program("hash", tri).split()[0] == f"{edgewise.pixel_hash(stream().draw()):016x}"
+
+
+def test_an_obj_file_is_drawn_as_by_the_program(obj, tmp_path):
+    drawn = edgewise.Scene.read_obj(obj)
+    assert list(drawn.first_ids()) == [0, 4]
+    colours = drawn.draw(drawn.camera(ASPECT), SIZE, cull="back").payload
+    program("render", obj, "--size", f"{WIDTH}x{HEIGHT}", "-o", tmp_path / "program.png")
+    difference = edgewise.diff(tmp_path / "program.png", colours)
+    assert difference.differing <= 3  # the program's camera is rounded to float
+    assert (colours != edgewise.BLACK).sum() > 500
+
+
+def test_ids_have_the_programs_colours(tri, tmp_path):
+    program("render", tri, "--payload", "id", "-o", tmp_path / "ids.png")
+    assert np.array_equal(edgewise.read_image(tmp_path / "ids.png"), edgewise.id_colours(stream().draw(ids=True).payload))
+
+
+def test_what_an_obj_file_lacks_is_a_warning(tmp_path):
+    path = tmp_path / "a.obj"
+    path.write_text("mtllib missing.mtl\nusemtl red\n" + OBJ)
+    with pytest.warns(UserWarning, match="missing.mtl"):
+        edgewise.Scene.read_obj(path)
+
+
+READERS = {"obj": edgewise.Scene.read_obj, "tri": edgewise.Stream.read_tri, "png": edgewise.read_image, "pfm": edgewise.read_pfm}
+
+
+@pytest.mark.parametrize("extension", READERS)
+def test_a_file_that_cannot_be_read_is_an_os_error(tmp_path, extension):
+    path = tmp_path / f"file.{extension}"
+    with pytest.raises(OSError, match=f"file.{extension}"):
+        READERS[extension](path)
+    path.write_bytes(b"?")
+    with pytest.raises(OSError, match=f"file.{extension}"):
+        READERS[extension](path)
+
+
+def test_a_file_that_cannot_be_written_is_an_os_error(tmp_path):
+    colours, depth = np.zeros((2, 2), np.uint32), np.zeros((2, 2), np.float32)
+    for write in (lambda: edgewise.write_image(tmp_path / "a.gif", colours), lambda: edgewise.write_image(tmp_path / "no/a.png", colours),
+                  lambda: edgewise.write_pfm(tmp_path / "no/a.pfm", depth), lambda: stream().write_tri(tmp_path / "no/a.tri")):
+        with pytest.raises(OSError, match=str(tmp_path)):
+            write()
+    with pytest.raises(ValueError):
+        edgewise.write_image(tmp_path / "a.png", depth)
+    with pytest.raises(ValueError, match="0"):
+        edgewise.Stream(np.zeros((1, 3, 3)), (0, 5)).write_tri(tmp_path / "a.tri")
+    assert list(tmp_path.iterdir()) == []
+
+
+def changed():
+    a = scene().draw(CAMERA, SIZE, shade=False).payload.copy()
+    b = a.copy()
+    b[7, 5] ^= 0x30
+    b[9, 2] ^= 0x10000
+    return a, b
+
+
+def test_diff_says_what_the_program_says(tmp_path):
+    a, b = changed()
+    mask = np.zeros((HEIGHT, WIDTH), bool)
+    mask[9] = True
+    paths = [tmp_path / name for name in ("a.png", "b.ppm", "mask.png")]
+    for path, picture in zip(paths, (a, b, np.where(mask, np.uint32(0xFF0000FF), np.uint32(edgewise.BLACK)))):
+        edgewise.write_image(path, picture)
+    for chosen in (None, mask):
+        of_arrays, of_files = edgewise.diff(a, b, chosen), edgewise.diff(*paths[:2], None if chosen is None else paths[2])
+        assert of_arrays[:-1] == of_files[:-1] and np.array_equal(of_arrays.picture, of_files.picture)
+        said = json.loads(program("diff", *paths[:2], "--json", *(() if chosen is None else ("--mask", paths[2])), status=1))
+        assert (said["differing"], said["largest"], said["scale"], tuple(said["first"])) == \
+            (of_arrays.differing, of_arrays.largest, of_arrays.scale, of_arrays.first)
+        assert (said.get("masked", 0), said.get("differing_in_mask", 0)) == (of_arrays.masked, of_arrays.differing_in_mask)
+    assert edgewise.diff(a, b).first == (5, 7) and edgewise.diff(a, b).differing == 2
+    assert edgewise.diff(a, b, mask)[:1] == (1,) and edgewise.diff(a, b, mask).masked == WIDTH
+    assert edgewise.diff(a, a).first is None and edgewise.diff(a, a).differing == 0
+
+
+def test_diff_of_depth_maps(tmp_path):
+    a = edgewise.depth01(scene().draw(CAMERA, SIZE).depth)
+    b = a.copy()
+    b[3, 4] -= 0.25
+    edgewise.write_pfm(tmp_path / "a.pfm", a)
+    difference = edgewise.diff(tmp_path / "a.pfm", b)
+    assert (difference.differing, difference.first, difference.scale) == (1, (4, 3), 1)
+    assert difference.largest == pytest.approx(0.25, abs=1e-6)
+    assert edgewise.diff(a, b, np.ones(a.shape)).differing_in_mask == 1
+
+
+def questions(entries):
+    """The program's JSON, in the module's form."""
+    def witness(answer):
+        w = answer.get("witness")
+        return w and (w["frame"], w["x_px"], w["y_px"], tuple(w["right"]), tuple(w["drawn"]))
+    return [(q["question"], q["answer"], q.get("proof"), q["error"],
+             [(a["answer"], witness(a)) for a in q["answers"]]) for q in entries]
+
+
+def ours(found):
+    return [(q.name, q.answer, q.proof, q.error, [(a.name, a.witness and tuple(a.witness)) for a in q.answers]) for q in found]
+
+
+def test_needs_of_a_stream_are_the_programs(tri):
+    found = stream().needs(threads=2)
+    said = json.loads(program("needs", tri, "--json", "--threads", 2))
+    assert found.frames == said["frames"] == 1 and found.reach == {}
+    assert ours(found.pipeline) == questions(said["pipeline"]["stages"])
+    assert ours(found.alone) == questions(said["alone"]) and ours(found.edges) == questions(said["edges"])
+    assert (found.orders, list(found.others)) == (said["pipeline"]["orders"], said["pipeline"]["others"] or [])
+    ranges = json.loads(program("needs", tri, "--ranges", "--json"))
+    assert list(found.edge_value_bits) == ranges["edge_value_bits"]
+
+
+def test_needs_of_a_scene_are_the_programs(obj):
+    drawn = edgewise.Scene.read_obj(obj)
+    size = (48, 32)
+    found = drawn.needs([drawn.camera(48 / 32)] * 2, size, cull="back", threads=2)
+    said = json.loads(program("needs", obj, "--json", "--size", "48x32"))
+    assert found.frames == 2 and set(found.reach) == {"near plane", "far plane", "guard band"}
+    assert {q.name: q.answer for q in found.pipeline} == {q["question"]: q["answer"] for q in said["pipeline"]["stages"]}
+
+
+def test_portable_pixels_of_a_stream_are_the_programs(tri):
+    found = stream().portable(bits=4, depth="d16_unorm")
+    said = json.loads(program("portable", tri, "--bits", 4, "--depth", "d16_unorm", "--json"))
+    assert found.reasons.shape == (HEIGHT, WIDTH) and found.reasons.dtype == np.uint8
+    assert {reason: found.counts[reason] for reason in edgewise.UNSTABLE[1:]} == said["reasons"]
+    assert sum(found.counts.values()) == WIDTH * HEIGHT
+    assert found.counts["edge"] == (found.reasons == edgewise.UNSTABLE.index("edge")).sum() > 0
+
+
+def test_portable_pixels_of_a_scene_are_nearly_the_programs(obj):
+    drawn = edgewise.Scene.read_obj(obj)
+    found = drawn.portable(drawn.camera(ASPECT), SIZE, cull="back")
+    said = json.loads(program("portable", obj, "--size", f"{WIDTH}x{HEIGHT}", "--json"))
+    assert abs(found.counts["edge"] - said["reasons"]["edge"]) <= 2
+    ids = drawn.draw(drawn.camera(ASPECT), SIZE, ids=True, cull="back").payload
+    masked = edgewise.diff(edgewise.id_colours(ids), edgewise.id_colours(ids + 1), found.reasons)
+    unstable = found.reasons.size - found.counts["portable"]
+    assert (masked.masked, masked.differing_in_mask) == (unstable, unstable) and unstable > 0
