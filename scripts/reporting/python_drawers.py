@@ -50,13 +50,25 @@ class Edgewise:
         return view.distance(self.edgewise.depth01(depth))
 
 
+def use_llvmpipe(threads):
+    os.environ.update(LIBGL_ALWAYS_SOFTWARE="1", GALLIUM_DRIVER="llvmpipe",
+                      LP_NUM_THREADS="0" if threads == 1 else str(threads))  # 0: the calling thread draws
+
+
+def llvmpipe_of(renderer, version):
+    """Its version, from two of OpenGL's strings."""
+    if not renderer.startswith("llvmpipe"):
+        raise RuntimeError(f"OpenGL is {renderer}, not llvmpipe")
+    return f"{renderer}, {version.partition(') ')[2]}"
+
+
 class Vtk:
     """Each triangle's colour is its id, without light, smoothing or multisampling; depth is the z-buffer. Debian's VTK draws through
     an X server only, here Xvfb, and Mesa's llvmpipe draws in this process."""
 
     def __init__(self, threads):
-        os.environ.update(DISPLAY=start_xvfb(), LIBGL_ALWAYS_SOFTWARE="1", GALLIUM_DRIVER="llvmpipe",
-                          LP_NUM_THREADS="0" if threads == 1 else str(threads))  # 0: the calling thread draws
+        use_llvmpipe(threads)
+        os.environ["DISPLAY"] = start_xvfb()
         import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the implementation of the next
         from vtkmodules import vtkCommonCore, vtkCommonDataModel, vtkRenderingCore
         from vtkmodules.util import numpy_support
@@ -75,10 +87,8 @@ class Vtk:
         self.window.AddRenderer(renderer)
         self.window.Render()
         opengl = self.window.ReportCapabilities()
-        renderer_name, version = (re.search(f"OpenGL {what} string: *(.*)", opengl)[1] for what in ("renderer", "version"))
-        if not renderer_name.startswith("llvmpipe"):
-            raise RuntimeError(f"OpenGL is {renderer_name}, not llvmpipe")
-        self.version = f"VTK {vtkCommonCore.vtkVersion.GetVTKVersion()}, {renderer_name}, {version.partition(') ')[2]}"
+        self.version = (f"VTK {vtkCommonCore.vtkVersion.GetVTKVersion()}, "
+                        + llvmpipe_of(*(re.search(f"OpenGL {what} string: *(.*)", opengl)[1] for what in ("renderer", "version"))))
 
     def load(self, mesh):
         count = len(mesh.triangles)
@@ -114,27 +124,52 @@ class Vtk:
         return view.distance(depth.astype(np.float64))
 
 
-class Open3d:
-    """Embree's rays through the centres of the pixels. Their directions have the length 1 along the view direction."""
+class ModernGl:
+    """The least that OpenGL does: one draw call, whose shader writes the triangle's number as a colour, and a read of both planes."""
+    VERTEX = """#version 330
+        uniform mat4 to_clip;
+        in vec3 position;
+        void main() { gl_Position = to_clip * vec4(position, 1.0); }"""
+    FRAGMENT = """#version 330
+        out vec4 colour;
+        void main() { colour = vec4(gl_PrimitiveID & 255, gl_PrimitiveID >> 8 & 255, gl_PrimitiveID >> 16, 255) / 255.0; }"""
 
     def __init__(self, threads):
-        import open3d
-        self.open3d, self.threads, self.version = open3d, threads, f"Open3D {open3d.__version__}"
+        use_llvmpipe(threads)
+        import moderngl
+        self.context = moderngl.create_context(standalone=True, backend="egl")
+        self.context.gc_mode = "auto"  # frees a mesh's buffers with the mesh
+        self.context.enable_only(moderngl.DEPTH_TEST)
+        self.program = self.context.program(vertex_shader=self.VERTEX, fragment_shader=self.FRAGMENT)
+        self.frame = None
+        self.version = (f"ModernGL {moderngl.__version__}, "
+                        + llvmpipe_of(self.context.info["GL_RENDERER"], self.context.info["GL_VERSION"]))
 
     def load(self, mesh):
-        self.scene = self.open3d.t.geometry.RaycastingScene(nthreads=self.threads)
-        self.scene.add_triangles(self.open3d.core.Tensor(mesh.positions), self.open3d.core.Tensor(mesh.triangles))
+        self.mesh = self.context.vertex_array(self.program, [(self.context.buffer(mesh.positions), "3f", "position")],
+                                              self.context.buffer(mesh.triangles))
 
     def draw(self, view):
-        rays = self.scene.create_rays_pinhole(self.open3d.core.Tensor(view.k), self.open3d.core.Tensor(view.world_to_camera), *view.size)
-        hits = self.scene.cast_rays(rays, nthreads=self.threads)
-        return hits["primitive_ids"].numpy(), hits["t_hit"].numpy()
+        width, height = view.size
+        if self.frame is None or self.frame.size != view.size:
+            self.frame = self.context.framebuffer(self.context.texture(view.size, 4), self.context.depth_texture(view.size))
+            self.frame.use()
+        span = view.far - view.near
+        to_clip = np.array([[2 * view.k[0, 0] / width, 0, 0, 0], [0, -2 * view.k[1, 1] / height, 0, 0],
+                            [0, 0, (view.far + view.near) / span, -2 * view.far * view.near / span], [0, 0, 1, 0]]) @ view.world_to_camera
+        self.program["to_clip"].write(to_clip.T.astype(np.float32).tobytes())
+        self.frame.clear(1, 1, 1, 1)
+        self.mesh.render()
+        ids, depth = np.empty((height, width), "<u4"), np.empty((height, width), np.float32)
+        self.frame.read_into(ids, components=4)
+        self.frame.read_into(depth, components=1, attachment=-1, dtype="f4")
+        return ids[::-1], depth[::-1]
 
     def distance(self, view, depth):
-        return depth.astype(np.float64)
+        return view.distance(depth.astype(np.float64))
 
 
-DRAWERS = {"edgewise": Edgewise, "vtk": Vtk, "open3d": Open3d}
+DRAWERS = {"edgewise": Edgewise, "vtk": Vtk, "moderngl": ModernGl}
 
 
 def start_xvfb():

@@ -3,7 +3,7 @@ from bench_rows import Row, records, source_of
 from program import parsed
 from tables import by_order, gain, markdown, milliseconds, number, outcome
 
-OURS, PEERS = "edgewise", {"vtk": "VTK", "open3d": "Open3D"}
+OURS, PEERS = "edgewise", {"vtk": "VTK", "moderngl": "ModernGL"}
 JOBS = {"draw": "draw", "load": "load and draw"}
 NOT_MEASURED = "No other Python package was measured here; `scripts/run --peers` does."
 
@@ -50,10 +50,10 @@ def times_table(pictures):
 def pixels_table(pictures):
     """Header and lines, a line per picture and peer."""
     lines = [[*titled(picture), name, f"{picture['covered']:,}", f"{of['differ']:,}", f"{of['holes']:,}",
-              number(of["farthest_px"], 2) if of["differ"] else "–", f"{of['ours_hold']:,} / {of['theirs_hold']:,}", number(of["distance_off"], 2)]
+              number(of["farthest_px"], 2) if of["differ"] else "–", f"{of['ours_hold']:,} / {of['theirs_hold']:,}", number(of["distance_p99"], 2)]
              for picture, _ in pictures for peer, name in PEERS.items() for of in [picture["peers"][peer]]]
     return ["picture", "triangles", "peer", "px that show the mesh", "px with another id", "holes", "px from an edge, at most",
-            "centre only in Edgewise's / the peer's triangle", "distances differ by at most"], lines
+            "centre only in Edgewise's / the peer's triangle", "distances, 99th percentile of the differences"], lines
 
 
 def python_tables(found):
