@@ -132,9 +132,9 @@ struct Plane {
     require(dims == 2 || dims == 3, "have the shape (height, width) or (views, height, width)");
     require(!written || array.writeable(), "not be read-only");
     views = dims == 3 ? array.shape(0) : 1, height = array.shape(dims - 2), width = array.shape(dims - 1);
-    // The strides of an axis that is passed over at most once mean nothing.
+    // The stride of an axis means nothing if no element is followed by another along it.
     const auto step = [&](py::ssize_t axis, py::ssize_t otherwise) {
-      if (array.shape(axis) <= 1) return otherwise;
+      if (array.shape(axis) <= 1 || array.size() == 0) return otherwise;
       require(array.strides(axis) % kPixel == 0, "be aligned");
       return array.strides(axis) / kPixel;
     };

@@ -33,10 +33,10 @@ class CMake(build_ext):
         build = Path(self.build_temp).resolve()
         module = Path(self.get_ext_fullpath(ext.name)).resolve()
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(len(os.sched_getaffinity(0))))
-        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DEDGEWISE_PYTHON=ON",
+        subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DEDGEWISE_PYTHON=ON",
                         "-DEDGEWISE_LABORATORY=OFF", "-DEDGEWISE_INSTALL=OFF", f"-DPython_EXECUTABLE={sys.executable}",
                         f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DEDGEWISE_PYTHON_FOLDER={module.parent}"], check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "edgewise_python", "--parallel", jobs], check=True)
+        subprocess.run(["cmake", "--build", str(build), "--target", "edgewise_python", "--parallel", jobs], check=True)
 
 
 version = re.search(r"project\(edgewise VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
