@@ -163,5 +163,5 @@ python_with() {
       return
     fi
   done
-  die "no python3 has $*; on Debian: apt-get install python3-matplotlib"
+  die "no python3 has all of $*; packages.txt lists Debian's packages"
 }

@@ -3,8 +3,11 @@ import argparse
 import difflib
 import json
 import re
+import subprocess
 import sys
 from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class BadInput(Exception):
@@ -70,6 +73,16 @@ def write_json(path, data):
     except OSError as error:
         part.unlink(missing_ok=True)
         raise BadInput(f"cannot write {path}: {error.strerror}") from error
+
+
+def commit():
+    """Of the sources; ends in -dirty if they have changed, as in src/support/machine.cpp."""
+    def git(*arguments):
+        return subprocess.run(["git", "--no-optional-locks", "-C", ROOT, *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              text=True, check=False).stdout.strip()
+
+    changes = git("status", "--porcelain", "--", ":/", ":(top,exclude)results")
+    return git("rev-parse", "--short=12", "HEAD") + ("-dirty" if changes else "") or "unknown"
 
 
 def readmes(first):

@@ -67,13 +67,13 @@ class Installed(unittest.TestCase):
         if PYTHON.exists():
             self.assertEqual(run(PYTHON, CONSUMER / "square.py", env=environment), square)
         self.assertRegex(run(folder / "seen", env=environment), r"^111556 px\n\d+ px\ndistance 3\.000\nthe box is hidden\n$")
+        quad = folder / "mesh.obj"
+        quad.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         run(folder / "picture", cwd=folder, env=environment)
-        self.assertTrue((folder / "pyramid.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertTrue((folder / "mesh.png").read_bytes().startswith(b"\x89PNG"))
         said = run(folder / "consumer", cwd=folder, env=environment)
         self.assertRegex(said, r"^triangle \d, depth 0\.\d{6}\n$")
         self.assertTrue((folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
-        quad = folder / "quad.obj"
-        quad.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         self.assertRegex(run(folder / "consumer", quad, cwd=folder, env=environment), "^triangle [01], ")
         missing = subprocess.run([folder / "consumer", "missing.obj"], capture_output=True, text=True, check=False,
                                  env={**os.environ, **(environment or {})})

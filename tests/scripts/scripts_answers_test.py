@@ -18,6 +18,7 @@ from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, 
 from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
 from instructions import instructions_table, read_counts  # noqa: E402
 from program import BadInput  # noqa: E402
+from python_tables import python_brief, python_tables, read_python  # noqa: E402
 from tables import markdown  # noqa: E402
 
 NOISE = (0.99, 1.0, 1.01, 0.995, 1.005)
@@ -315,6 +316,45 @@ class InstructionsTest(FolderTest):
     def test_what_is_not_a_count_is_refused(self):
         with self.assertRaises(BadInput):
             self.table({"cube": {"frontend": {"scalar": 1}}})
+
+
+def compared_packages(**peers):
+    """One picture; of each peer: its speed-down on both numbers of threads, and how many ids differ."""
+    def times(ms):
+        return {str(threads): {"draw": [ms / threads * noise for noise in NOISE * 2], "load": [9 * ms * noise for noise in NOISE * 2]} for threads in (1, 2)}
+
+    return {"commit": "abc", "versions": {"edgewise": "Edgewise", **{peer: f"{peer} 1" for peer in peers}}, "pictures": [
+        {"mesh": "hill", "triangles": 2000, "size": [640, 480], "covered": 5000,
+         "peers": {peer: {"differ": differ, "holes": 2, "farthest_px": 0.00212, "ours_hold": 1, "theirs_hold": 3, "distance_p99": 1.23e-7}
+                   for peer, (_, differ) in peers.items()},
+         "ms": {"edgewise": times(2.0), **{peer: times(2.0 * slower) for peer, (slower, _) in peers.items()}}}]}
+
+
+class PythonTest(FolderTest):
+    def read(self, data, machine="mine"):
+        self.file(f"results/{machine}/python.json", json.dumps(data))
+        return read_python(self.folder / "results/mine")
+
+    def test_a_picture_has_a_line_per_call_and_a_line_per_peer(self):
+        lines = python_tables(self.read(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 1234)))).splitlines()
+        self.assertEqual(lines[0], "vtk 1 and moderngl 1, on 1 / 2 threads (`mine`, commit abc):")
+        self.assertEqual([line for line in lines if "| hill" in line],
+                         ["| hill, 640 × 480 | 2,000 | draw | 2.00 / 1.00 | 8.00 / 4.00 | 4.0× / 4.0× | 1.00 / 0.500 | 2.0× slower / 2.0× slower |",
+                          "| hill, 640 × 480 | 2,000 | load and draw | 18.0 / 18.0 | 72.0 / 72.0 | 4.0× / 4.0× | 9.00 / 9.00 | 2.0× slower / 2.0× slower |",
+                          "| hill, 640 × 480 | 2,000 | VTK | 5,000 | 0 | 2 | – | 1 / 3 | 1.2e-07 |",
+                          "| hill, 640 × 480 | 2,000 | ModernGL | 5,000 | 1,234 | 2 | 0.0021 | 1 / 3 | 1.2e-07 |"])
+
+    def test_in_brief_only_draws_on_two_threads_count(self):
+        found = self.read(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 0)), "other")
+        self.assertEqual(python_brief(found), "Ids and depths by `draw` on 2 threads: against VTK 4.0× faster in 1 of 1 scene; against ModernGL 2.0× slower in 1 of 1 "
+                         "scene (`other`, commit abc; [more](results/README.md#python-packages)).")
+
+    def test_nothing_is_said_of_nothing_and_what_is_no_result_is_refused(self):
+        for told in (python_tables, python_brief):
+            self.assertEqual(told(read_python(self.folder / "results/mine")), "No other Python package was measured here; `scripts/run --peers` does.")
+        for data in ([], {"versions": {}, "pictures": [{}]}, compared_packages(vtk=(1.0, 0)), compared_packages(vtk=(1.0, 0), moderngl=(1.0, -1))):
+            with self.assertRaises(BadInput):
+                self.read(data)
 
 
 class NeedsTest(FolderTest):

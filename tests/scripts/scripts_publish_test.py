@@ -40,7 +40,7 @@ class PublishTest(FolderTest):
         return {str(path.relative_to(self.results)) for path in self.results.rglob("*") if path.is_file()}
 
     def test_readmes_decide_which_pictures_are_copied(self):
-        for name, text in (("random.json", "{}"), ("charts/threads.svg", "old"), ("charts/area.svg", "old")):
+        for name, text in (("random.json", "{}"), ("python.json", "{}"), ("charts/threads.svg", "old"), ("charts/area.svg", "old")):
             self.file(self.results / "mine" / name, text)
         result = self.publish(self.mine)
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -94,7 +94,7 @@ class ShellTest(FolderTest):
         for script in ("test", "run"):
             self.assert_usage_error(self.run_script(script, "--no-install", "--wrong"), "'--wrong'; --help lists all")
         for script, near in (("fuzz", "--keep"), ("prove", "--list"), ("mutate", "--list"), ("compare", "--least"), ("readme", "--check"),
-                             ("summary", "--tables"), ("publish", "--check"), ("plot", "--out")):
+                             ("summary", "--tables"), ("publish", "--check"), ("plot", "--out"), ("python_peers", "--mesh")):
             wrong = near[:-1] + "_"
             self.assert_usage_error(self.run_script(script, wrong), f"'{wrong}'; did you mean {near}?")
         self.assert_usage_error(self.run_script("test", "--quick", "--no-install"), "unknown argument '--quick'; --help")

@@ -1,0 +1,135 @@
+"""What `scripts/python_peers` compares: the pictures of python_drawers, then their times."""
+import numpy as np
+
+from program import BadInput
+from python_drawers import DRAWERS, Drawer, Mesh, View
+
+OURS = "edgewise"
+THREADS = (1, 2)
+BACKGROUND = 0xFFFFFF
+FOV_Y = 0.8  # radians
+CALLS = 3  # whose median is the time of a round
+
+
+def grid(columns, rows, surface):
+    """Two triangles per cell of a surface(u, v) with 0 <= u, v <= 1."""
+    v, u = np.meshgrid(np.linspace(0, 1, rows + 1), np.linspace(0, 1, columns + 1), indexing="ij")
+    a = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    b, c, d = a + 1, a + columns + 1, a + columns + 2
+    return Mesh(np.stack(surface(u, v), -1).reshape(-1, 3).astype(np.float32),
+                np.stack([a, b, c, b, d, c], -1).reshape(-1, 3).astype(np.uint32))
+
+
+def ball(u, v):
+    around, down = 2 * np.pi * u, np.pi * v
+    return np.cos(around) * np.sin(down), np.cos(down), np.sin(around) * np.sin(down)
+
+
+def hills(u, v):
+    return 4 * u, 0.3 * np.sin(11 * u) * np.cos(7 * v) + 0.05 * np.sin(60 * u + 40 * v), 4 * v
+
+
+BUILT_IN = {"sphere": (192, 128, ball), "terrain": (512, 512, hills)}
+
+
+def read_obj(path):
+    """The positions and triangles of an OBJ file. Faces become fans, as in Edgewise."""
+    try:
+        lines = [line.split() for line in path.read_text(encoding="utf-8", errors="replace").splitlines()]
+        positions = [line[1:4] for line in lines if line[:1] == ["v"]]
+        faces = [[int(corner.partition("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
+        triangles = [(face[0], *face[i:i + 2]) for face in faces for i in range(1, len(face) - 1)]
+        mesh = Mesh(np.array(positions, np.float32).reshape(-1, 3), np.array(triangles).astype(np.uint32).reshape(-1, 3))
+    except (OSError, ValueError, OverflowError) as error:
+        raise BadInput(f"{path}: {error}") from None
+    if not 0 < len(mesh.triangles) < BACKGROUND or mesh.triangles.max() >= len(mesh.positions):
+        raise BadInput(f"{path}: no triangles, too many, or an index out of range")
+    return mesh
+
+
+def view_of(mesh, size):
+    """Sees the mesh from above, between its front and its right side; corners of its box may be out of view."""
+    low, high = mesh.positions.min(0).astype(float), mesh.positions.max(0).astype(float)
+    radius = np.linalg.norm(high - low) / 2
+    away = 0.7 * radius / np.sin(FOV_Y / 2)
+    z = -np.array([1.0, 1.5, 3.0]) / 3.5  # a unit vector, from the camera to the centre
+    x = np.cross(z, [0.0, 1.0, 0.0])
+    x /= np.linalg.norm(x)
+    world_to_camera = np.eye(4)
+    world_to_camera[:3, :3] = x, np.cross(z, x), z
+    world_to_camera[:3, 3] = -world_to_camera[:3, :3] @ ((low + high) / 2 - away * z)
+    focal = size[1] / 2 / np.tan(FOV_Y / 2)
+    k = np.array([[focal, 0, size[0] / 2], [0, focal, size[1] / 2], [0, 0, 1]])
+    return View(size, k, world_to_camera, 0.9 * (away - radius), 1.1 * (away + radius))
+
+
+def around(mask):
+    """Whether all eight neighbours are set, too. Pixels at the border have too few."""
+    inside = np.zeros_like(mask)
+    height, width = mask.shape
+    inside[1:-1, 1:-1] = np.logical_and.reduce([mask[y:height - 2 + y, x:width - 2 + x] for y in range(3) for x in range(3)])
+    return inside
+
+
+def corners(mesh, view, ids):
+    """(n, 3, 2): the corners of these triangles in pixels, in doubles and not rounded; far away for background."""
+    seen = np.full((len(ids), 3, 2), 1e9)
+    drawn = ids != BACKGROUND
+    points = mesh.positions[mesh.triangles[ids[drawn]]].astype(float) @ view.world_to_camera[:3, :3].T + view.world_to_camera[:3, 3]
+    seen[drawn] = (points @ view.k.T)[..., :2] / points[..., 2:]
+    return seen
+
+
+def from_edges(pixels, triangles):
+    """Of each triangle: how far its edges are from the pixel's centre, and whether they go round it."""
+    edges = np.roll(triangles, -1, 1) - triangles
+    away = pixels[:, None] - triangles
+    along = np.clip((edges * away).sum(-1) / np.maximum((edges * edges).sum(-1), 1e-30), 0, 1)
+    sides = np.sign(edges[..., 0] * away[..., 1] - edges[..., 1] * away[..., 0])
+    return np.linalg.norm(away - along[..., None] * edges, axis=-1).min(-1), abs(sides.sum(-1)) == 3
+
+
+def compared(mesh, view, ours, theirs):
+    """How another picture differs from ours; each is (ids, distances)."""
+    (our_ids, our_distances), (ids, distances) = ours, theirs
+    differ = ids != our_ids
+    pixels = np.argwhere(differ)[:, ::-1] + 0.5
+    (our_px, our_centres), (px, centres) = (from_edges(pixels, corners(mesh, view, picture[differ])) for picture in (our_ids, ids))
+    same = ~differ & (our_ids != BACKGROUND)
+    apart = abs(distances - our_distances)[same] / our_distances[same]
+    return {"differ": int(differ.sum()), "holes": int(((ids == BACKGROUND) & around(our_ids != BACKGROUND)).sum()),
+            "farthest_px": float(np.minimum(our_px, px).max(initial=0)), "ours_hold": int((our_centres & ~centres).sum()),
+            "theirs_hold": int((centres & ~our_centres).sum()),
+            "distance_p99": float(np.quantile(apart, 0.99)) if apart.size else 0.0}
+
+
+def timed(drawers, mesh, view, rounds):
+    """The milliseconds of each round: {drawer's name: {threads: {job: [...]}}}. Every other round goes the other way."""
+    found = {}
+    for i in range(rounds):
+        for drawer in drawers[::-1] if i % 2 else drawers:
+            times = found.setdefault(drawer.name, {}).setdefault(drawer.threads, {"load": [], "draw": []})
+            times["load"].append(round(drawer.ms(view, 1, mesh), 4))
+            times["draw"].append(round(drawer.ms(view, CALLS), 4))
+    return found
+
+
+def comparison(meshes, sizes, rounds, tell):
+    """What goes to python.json. BadInput if a package is missing or draws nothing."""
+    try:
+        drawers = [Drawer(name, threads) for threads in THREADS for name in DRAWERS]
+    except RuntimeError as error:
+        raise BadInput(error) from None
+    pictures = []
+    for name, mesh in meshes.items():
+        for size in sizes:
+            view = view_of(mesh, size)
+            drawn = {(drawer.name, drawer.threads): drawer.picture(mesh, view) for drawer in drawers}
+            ours = drawn[OURS, THREADS[0]]
+            if any((of[0] != drawn[name, THREADS[0]][0]).any() for (name, _), of in drawn.items()):
+                raise BadInput(f"{name}: the number of threads changes the picture")
+            peers = {other: compared(mesh, view, ours, drawn[other, THREADS[0]]) for other in DRAWERS if other != OURS}
+            tell(f"{name}, {size[0]} × {size[1]}: " + ", ".join(f"{other} differs in {of['differ']:,} px" for other, of in peers.items()))
+            pictures.append({"mesh": name, "triangles": len(mesh.triangles), "size": size, "covered": int((ours[0] != BACKGROUND).sum()),
+                             "peers": peers, "ms": timed(drawers, mesh, view, rounds)})
+    return {"versions": {drawer.name: drawer.version for drawer in drawers}, "pictures": pictures}
