@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "core/atomic_file.h"
 #include "edgewise/tri_file.h"
@@ -75,14 +76,6 @@ void update_mean(double now, double& mean) {
 
 }  // namespace
 
-std::vector<int> thread_counts() {
-  const int cores = tools::default_threads();
-  std::vector<int> counts;
-  for (int n = 1; n < cores; n *= 2) counts.push_back(n);
-  counts.push_back(cores);
-  return counts;
-}
-
 Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
   sides_[1].choice = lab::our_choice("tiled");
@@ -103,10 +96,6 @@ void Session::press(Key key) {
 
 void Session::release(Key key) {
   held_.erase(key);
-}
-
-void Session::release_all() {
-  held_.clear();
 }
 
 void Session::type(std::span<const Stroke> strokes, const std::function<void(double)>& pass) {
@@ -133,15 +122,18 @@ void Session::point(Pixel to, bool held) {
     ++state_.version;
   }
   pointer_ = to;
-  focus_ = Pixel{side_size_.width > 0 ? to.x % side_size_.width : 0, to.y};
+  // A drag may leave the picture.
+  const auto within = [](int at, int size) { return std::clamp(at, 0, std::max(size - 1, 0)); };
+  const int left = to.x < left_of(1) ? 0 : left_of(1);
+  focus_ = Pixel{within(to.x - left, side_size_.width), within(to.y, side_size_.height)};
 }
 
 bool Session::still() const {
-  return held_.empty() && (!state_.spinning || state_.frozen);
+  return state_.stream || (held_.empty() && (!state_.spinning || state_.frozen));
 }
 
 void Session::advance(double seconds) {
-  if (!world_ || state_.stream || still()) return;
+  if (!world_ || still()) return;
   const auto passed = static_cast<float>(seconds);
   for (const Key key : held_) move(*command_of(key), passed);
   if (state_.spinning && !state_.frozen) state_.angle += kTurnPerSecond * passed;
@@ -215,7 +207,7 @@ void Session::act(Command command) {
       break;
     case Command::truth:
       state_.truth = next_of_three(state_.truth);
-      for (Side& side : sides_) side.judgement.reset();
+      reset_results();
       break;
     case Command::next_error:
       show_next_error();
@@ -223,7 +215,7 @@ void Session::act(Command command) {
     case Command::arrangement:
       state_.arrangement = next_of_three(state_.arrangement);
       if (state_.arrangement == Arrangement::one) state_.active = 0;
-      reset_times();
+      reset_results();
       break;
     case Command::other_side:
       if (state_.arrangement == Arrangement::one)
@@ -238,7 +230,7 @@ void Session::act(Command command) {
       take_step(state_.step);
       break;
     case Command::help:
-      state_.help = !state_.help;
+      state_.help = !(state_.help && state_.panel);
       state_.panel |= state_.help;
       break;
     case Command::search:
@@ -287,7 +279,7 @@ void Session::switch_by(Command command, int step) {
       break;
     case Command::threads:
       state_.execution.threads =
-          next_in(thread_counts(), step, [&](int n) { return n >= state_.execution.threads; });
+          next_in(thread_counts(), step, [&](int n) { return n == state_.execution.threads; });
       break;
     case Command::target:
       state_.execution.target = next_in(supported_targets(), step,
@@ -296,20 +288,26 @@ void Session::switch_by(Command command, int step) {
     default:
       return;
   }
-  side.judgement.reset();
-  reset_times();
+  reset_results();
 }
 
 void Session::choose(std::string_view method) {
   Side& side = sides_[state_.active];
   if (!put(method, side.choice)) throw std::invalid_argument("unknown method '" + std::string(method) + "'");
-  side.judgement.reset();
-  reset_times();
+  reset_results();
   ++state_.version;
 }
 
-void Session::reset_times() {
-  for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
+std::vector<int> Session::thread_counts() const {
+  const int cores = tools::default_threads();
+  std::set<int> counts{cores, start_.execution.threads};
+  for (int n = 1; n < cores; n *= 2) counts.insert(n);
+  return {counts.begin(), counts.end()};
+}
+
+// Forgets what was measured and counted with other methods or at another size.
+void Session::reset_results() {
+  for (Side& side : sides_) side.judgement.reset();
   state_.frame_ms = 0;
   cold_ = true;
 }
@@ -379,14 +377,13 @@ const Screen& Session::draw(tools::Size window, int panel_width_px) {
     load(size);
     size_ = size;
     ++state_.version;
-    reset_times();
+    reset_results();
   }
-  // Draw twice and time the second frame: the first one also allocates memory and fills caches.
-  if (cold_ && !state_.reproducible) {
-    draw_picture();
-    reset_times();
+  if (std::exchange(cold_, false)) {
+    // Draw twice and time the second frame: the first one also allocates memory and fills caches.
+    if (!state_.reproducible) draw_picture();
+    for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
   }
-  cold_ = false;
   state_.last_frame_ms = tools::milliseconds([&] { draw_picture(); });
   update_mean(state_.last_frame_ms, state_.frame_ms);
   if (save_next_) save();
