@@ -1,5 +1,5 @@
-// What is added to a picture: tinted errors, outlines, labels in the scene. What the panel shows of a pixel:
-// those around it, and the triangles that reach it.
+// Additions to a picture: tinted errors, outlines, labels in the scene. For the magnifier: the pixels around
+// one, and the triangles that reach it.
 #pragma once
 
 #include <array>

@@ -38,7 +38,7 @@ struct Sdl {
   Sdl() {
     sdl().SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
     sdl().SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    // Copy pixels straight to the window: without a GPU, OpenGL would take longer for that than the drawing.
+    // Copies pixels without OpenGL, which is slower than the drawing where there is no GPU.
     sdl().SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("cannot open a window");
     // Without a display SDL falls back to drivers that show nothing.
