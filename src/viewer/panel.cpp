@@ -196,10 +196,9 @@ class Panel::Contents {
     }
     const Side& side = session_->side(state().active);
     if (!side.judgement) return;
-    constexpr std::pair<lab::Mark, const char*> kKinds[] = {
-        {lab::Mark::gap, "nothing drawn"},
-        {lab::Mark::twice, "drawn twice, or wrong triangle"},
-        {lab::Mark::extra, "outside all triangles"}};
+    constexpr std::pair<lab::Mark, const char*> kKinds[] = {{lab::Mark::gap, "nothing drawn"},
+                                                            {lab::Mark::twice, "twice, or wrong triangle"},
+                                                            {lab::Mark::extra, "outside all triangles"}};
     for (const auto& [mark, what] : kKinds) {
       swatch(lab::colour_of(mark));
       text(kPlain, "{}{} {}", prefix(state().active), side.marked[static_cast<std::size_t>(mark)], what);
@@ -228,7 +227,7 @@ class Panel::Contents {
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::PlotLines("##frames", frames_ms_.data(), static_cast<int>(frames_ms_.size()), 0,
                      fmt::format("{:.1f} ms per frame, at most {:.1f}", state().frame_ms, most).c_str(), 0.0f,
-                     most, {0.0f, 3.0f * em()});
+                     1.5f * most, {0.0f, 3.0f * em()});  // with the words above the curve
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const Side &side = session_->side(i), &first = session_->side(0);
       text(kPlain, "{}front end {:.2f} ms, raster {:.2f} ms", prefix(i), side.frontend_ms, side.raster_ms);
@@ -360,6 +359,7 @@ void Panel::set_font(int px) {
   if (px == font_px_) return;
   font_px_ = px;
   ImGuiStyle style;
+  style.ItemSpacing.y = 3.0f;
   style.ScaleAllSizes(static_cast<float>(px) / kFont_px);
   style.ScrollbarRounding = style.TabRounding = 0.0f;
   style.WindowBorderSize = 0.0f;

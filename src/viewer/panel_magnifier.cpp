@@ -54,7 +54,7 @@ void Magnifier::lay_out(const Session& session) {
   const std::size_t listed = std::min(triangles_.size(), kMostTriangles);
   for (const TriangleOfPixel& t : std::span(triangles_).first(listed)) {
     swatch(t.colour);
-    text(t.covers() ? kPlain : kFaint, "#{}  {}  {} {} {}", t.index,
+    text(t.covers() ? kPlain : kFaint, "#{} {} {} {} {}", t.index,
          t.covers() ? fmt::format("{:.6f}", t.depth01) : "misses", t.edges[0], t.edges[1], t.edges[2]);
   }
   if (triangles_.size() > listed) text(kPlain, "and {} more", triangles_.size() - listed);

@@ -26,6 +26,8 @@ constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
 // During movement, errors are counted only if the frame is expected to stay within kBudget_ms. The expected
 // judging time decays by kDecay per frame, so that counting is retried every few seconds.
 constexpr double kBudget_ms = 10.0, kDecay = 0.995;
+// Triangles. In larger scenes a count takes seconds, so the user must ask for it.
+constexpr std::size_t kMostJudged = 200'000;
 
 constexpr bool changes_picture(Command command) {
   return command < Command::axes;
@@ -56,6 +58,15 @@ void switch_edges(Side& side) {
     while (method->fills == filled);
   }
   side.filled = before;
+}
+
+std::size_t triangle_count(const Drawable& drawable) {
+  if (const auto* const stream = std::get_if<TriangleStream>(&drawable)) return stream->triangles.size();
+  const Scene& scene = std::get<Scene>(drawable);
+  std::size_t triangles = 0;
+  for (const Instance& instance : scene.instances)
+    triangles += scene.meshes.at(instance.mesh).triangles.size();
+  return triangles;
 }
 
 // Whether a demo's next step can follow the command without a replay of the earlier steps.
@@ -354,6 +365,10 @@ void Session::load(tools::Size size) {
     side.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
   }
   state_.axis = start_.axis.value_or(world_->first_axis());
+  if (!start_.reproducible && triangle_count(world_->drawable()) > kMostJudged) {
+    state_.errors = Errors::off;
+    state_.message = "large scene: errors are not counted; [e] counts them";
+  }
 }
 
 View Session::view_of(std::size_t i, tools::Size size) const {

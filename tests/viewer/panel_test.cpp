@@ -197,7 +197,7 @@ TEST(Panel, CountsErrorsByKindBesideTheirColours) {
   EXPECT_TRUE(shown.says(errors_of(*side.judgement)));
   std::uint64_t all = 0;
   for (const auto& [mark, what] : {std::pair(lab::Mark::gap, " nothing drawn"),
-                                   std::pair(lab::Mark::twice, " drawn twice, or wrong triangle"),
+                                   std::pair(lab::Mark::twice, " twice, or wrong triangle"),
                                    std::pair(lab::Mark::extra, " outside all triangles")}) {
     const std::uint64_t n = side.marked[static_cast<std::size_t>(mark)];
     EXPECT_TRUE(shown.says(std::to_string(n) + what));
@@ -226,7 +226,7 @@ TEST(Panel, ListsTheTrianglesOfTheMagnifiedPixel) {
   const std::string text = shown.text();
   EXPECT_NE(text.find(std::to_string(found.size()) + " triangles reach it"), std::string::npos);
   const auto& edges = found.front().edges;
-  EXPECT_NE(text.find(fmt::format("  {} {} {}\n", edges[0], edges[1], edges[2])), std::string::npos);
+  EXPECT_NE(text.find(fmt::format(" {} {} {}\n", edges[0], edges[1], edges[2])), std::string::npos);
 }
 
 TEST(Panel, ListsADemosStepsAndGoesToThem) {
