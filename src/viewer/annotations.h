@@ -61,8 +61,8 @@ struct TriangleOfPixel {
 // Those that cover the sample come first, the nearest of them first.
 std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel);
 
-// Pastes `from` with its upper left corner at (x, y), clipped to `into`.
-void paste(const Image& from, int x, int y, Image& into);
+// Copies `from` to the columns of `into` from `left` on. They must have room for it.
+void paste(const Image& from, int left, Image& into);
 
 std::size_t vertex_count(const Scene& scene);    // of all instances
 inline constexpr std::size_t kMostLabels = 300;  // more would be unreadable

@@ -76,7 +76,6 @@ class Panel::Contents {
 
  private:
   const State& state() const { return session_->state(); }
-  const char* prefix(std::size_t side) const { return viewer::prefix(*session_, side); }
 
   void press(Key key) {
     session_->press(key);
@@ -188,10 +187,11 @@ class Panel::Contents {
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const Side& side = session_->side(i);
       if (!side.judgement)
-        text(kPlain, "{}{}", prefix(i),
+        text(kPlain, "{}{}", prefix(*session_, i),
              side.choice.fills() ? "not counted" : "edges have no errors to count");
       else
-        text(side.judgement->wrong > 0 ? kWrong : kPlain, "{}{}{}", prefix(i), errors_of(*side.judgement),
+        text(side.judgement->wrong > 0 ? kWrong : kPlain, "{}{}{}", prefix(*session_, i),
+             errors_of(*side.judgement),
              side.judged == state().version ? "" : " (an earlier frame, to keep the frame rate)");
     }
     const Side& side = session_->side(state().active);
@@ -201,7 +201,8 @@ class Panel::Contents {
                                                             {lab::Mark::extra, "outside all triangles"}};
     for (const auto& [mark, what] : kKinds) {
       swatch(lab::colour_of(mark));
-      text(kPlain, "{}{} {}", prefix(state().active), side.marked[static_cast<std::size_t>(mark)], what);
+      text(kPlain, "{}{} {}", prefix(*session_, state().active), side.marked[static_cast<std::size_t>(mark)],
+           what);
     }
   }
 
@@ -230,7 +231,8 @@ class Panel::Contents {
                      1.5f * most, {0.0f, 3.0f * em()});  // with the words above the curve
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const Side &side = session_->side(i), &first = session_->side(0);
-      text(kPlain, "{}front end {:.2f} ms, raster {:.2f} ms", prefix(i), side.frontend_ms, side.raster_ms);
+      text(kPlain, "{}front end {:.2f} ms, raster {:.2f} ms", prefix(*session_, i), side.frontend_ms,
+           side.raster_ms);
       const double ratio = (side.frontend_ms + side.raster_ms) / (first.frontend_ms + first.raster_ms);
       if (i > 0)
         text(kPlain, "right: {:.2f}x {} than left", std::max(ratio, 1 / ratio),
@@ -242,10 +244,11 @@ class Panel::Contents {
     if (!section("Triangles")) return;
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const FrontendStats& n = session_->side(i).stats;
-      text(kPlain, "{}{} in, {} outside, {} culled, {}{} drawn", prefix(i), n.triangles,
+      text(kPlain, "{}{} in, {} outside, {} culled, {}{} drawn", prefix(*session_, i), n.triangles,
            n.whole_mesh + n.outside, n.culled,
            session_->side(i).choice.our_clipping() ? fmt::format("{} clipped, ", n.clipped) : "", n.emitted);
-      if (n.meshes > 1) text(kPlain, "{}{} objects, {} culled whole", prefix(i), n.meshes, n.meshes_culled);
+      if (n.meshes > 1)
+        text(kPlain, "{}{} objects, {} culled whole", prefix(*session_, i), n.meshes, n.meshes_culled);
     }
     toggle("outlines", '6', state().outlines);
     ImGui::SameLine();
@@ -260,9 +263,9 @@ class Panel::Contents {
       const Side& side = session_->side(i);
       const bool many = side.faces.size() > kMostLabels;
       if (!side.choice.our_clipping())
-        text(kNotOurs, "{}this clipping method doesn't report face states", prefix(i));
+        text(kNotOurs, "{}this clipping method doesn't report face states", prefix(*session_, i));
       else
-        text(kPlain, "{}{}\n{}", prefix(i), summary_of(side.faces),
+        text(kPlain, "{}{}\n{}", prefix(*session_, i), summary_of(side.faces),
              many ? "too many faces for letters" : letters_of(side.faces));
     }
   }
@@ -414,7 +417,7 @@ const Image& Panel::show(Session& session, tools::Size window) {
   image_ = {window.width, window.height, std::move(image_.pixels)};
   image_.pixels.assign(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height),
                        kBackground);
-  paste(screen.picture, 0, 0, image_);
+  paste(screen.picture, 0, image_);
   paint(*ImGui::GetDrawData(), image_);
   picture_width_px_ = screen.picture.width;
   return image_;

@@ -26,7 +26,8 @@ void show_grid(const Image& image, float square) {
     list.AddRectFilled({at.x, at.y + by}, {at.x + all, at.y + by + 1.0f}, 0x60000000u);
   }
   const ImVec2 middle{at.x + square * kReach, at.y + square * kReach};
-  list.AddRect(middle, {middle.x + square + 1.0f, middle.y + square + 1.0f}, rgb(255, 255, 0));
+  list.AddRect(middle, {middle.x + square + 1.0f, middle.y + square + 1.0f}, rgb(255, 255, 0), 0.0f, 0,
+               std::floor(square / 8.0f));
 }
 
 }  // namespace

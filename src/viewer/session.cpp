@@ -26,8 +26,9 @@ constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
 // During movement, errors are counted only if the frame is expected to stay within kBudget_ms. The expected
 // judging time decays by kDecay per frame, so that counting is retried every few seconds.
 constexpr double kBudget_ms = 10.0, kDecay = 0.995;
-// Triangles. In larger scenes a count takes seconds, so the user must ask for it.
-constexpr std::size_t kMostJudged = 200'000;
+// Vertices of a scene, or triangles of a stream. With more, a count takes seconds, so the user must ask for
+// it.
+constexpr std::size_t kMostJudged = 100'000;
 
 constexpr bool changes_picture(Command command) {
   return command < Command::axes;
@@ -58,15 +59,6 @@ void switch_edges(Side& side) {
     while (method->fills == filled);
   }
   side.filled = before;
-}
-
-std::size_t triangle_count(const Drawable& drawable) {
-  if (const auto* const stream = std::get_if<TriangleStream>(&drawable)) return stream->triangles.size();
-  const Scene& scene = std::get<Scene>(drawable);
-  std::size_t triangles = 0;
-  for (const Instance& instance : scene.instances)
-    triangles += scene.meshes.at(instance.mesh).triangles.size();
-  return triangles;
 }
 
 // Whether a demo's next step can follow the command without a replay of the earlier steps.
@@ -158,27 +150,14 @@ void Session::move(Command command, float seconds) {
   const float distance = state_.speed * std::sqrt(world_->radius()) * seconds,
               turn = kLookPerSecond * seconds;
   constexpr glm::vec3 kDirections[] = {{0, 0, -1}, {0, 0, 1}, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
-  Camera& camera = world_->camera();
+  constexpr glm::vec2 kLooks[] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+  const int i = static_cast<int>(command), first_look = static_cast<int>(Command::look_up);
   if (command <= Command::sink)
-    return viewer::move(camera, distance * kDirections[static_cast<int>(command)], state_.along_view);
-  switch (command) {
-    case Command::look_up:
-      return look(camera, 0, turn);
-    case Command::look_down:
-      return look(camera, 0, -turn);
-    case Command::look_left:
-      return look(camera, turn, 0);
-    case Command::look_right:
-      return look(camera, -turn, 0);
-    case Command::turn_on:
-      state_.angle += kTurnPerSecond * seconds;
-      return;
-    case Command::turn_back:
-      state_.angle -= kTurnPerSecond * seconds;
-      return;
-    default:
-      return;
-  }
+    viewer::move(world_->camera(), distance * kDirections[i], state_.along_view);
+  else if (command <= Command::look_right)
+    look(world_->camera(), turn * kLooks[i - first_look].x, turn * kLooks[i - first_look].y);
+  else
+    state_.angle += (command == Command::turn_on ? kTurnPerSecond : -kTurnPerSecond) * seconds;
 }
 
 void Session::act(Command command) {
@@ -365,7 +344,9 @@ void Session::load(tools::Size size) {
     side.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
   }
   state_.axis = start_.axis.value_or(world_->first_axis());
-  if (!start_.reproducible && triangle_count(world_->drawable()) > kMostJudged) {
+  const std::size_t amount = state_.stream ? std::get<TriangleStream>(world_->drawable()).triangles.size()
+                                           : vertex_count(*world_->scene());
+  if (!start_.reproducible && amount > kMostJudged) {
     state_.errors = Errors::off;
     state_.message = "large scene: errors are not counted; [e] counts them";
   }
@@ -420,8 +401,8 @@ void Session::draw_picture() {
     screen_.picture = {size_.width, size_.height, {}};
     screen_.picture.pixels.resize(static_cast<std::size_t>(size_.width) *
                                   static_cast<std::size_t>(size_.height));
-    paste(first, 0, 0, screen_.picture);
-    paste(second, left_of(1), 0, screen_.picture);
+    paste(first, 0, screen_.picture);
+    paste(second, left_of(1), screen_.picture);
   } else {
     Difference both = difference(first, second);
     state_.differing = both.count;

@@ -196,9 +196,9 @@ TEST(Panel, CountsErrorsByKindBesideTheirColours) {
   ASSERT_GT(side.judgement->wrong, 100u);
   EXPECT_TRUE(shown.says(errors_of(*side.judgement)));
   std::uint64_t all = 0;
-  for (const auto& [mark, what] : {std::pair(lab::Mark::gap, " nothing drawn"),
-                                   std::pair(lab::Mark::twice, " twice, or wrong triangle"),
-                                   std::pair(lab::Mark::extra, " outside all triangles")}) {
+  for (const auto& [mark, what] :
+       {std::pair(lab::Mark::gap, " nothing drawn"), std::pair(lab::Mark::twice, " twice, or wrong triangle"),
+        std::pair(lab::Mark::extra, " outside all triangles")}) {
     const std::uint64_t n = side.marked[static_cast<std::size_t>(mark)];
     EXPECT_TRUE(shown.says(std::to_string(n) + what));
     EXPECT_EQ(static_cast<std::uint64_t>(

@@ -541,6 +541,16 @@ TEST(Viewer, CountsErrorsOnceAMovingSceneStops) {
   EXPECT_EQ(session.side(0).judged, session.state().version);
 }
 
+TEST(Viewer, CountsErrorsOfLargeScenesOnRequestOnly) {
+  Session large = session_of("terrain"), small = session_of("sphere");
+  type(large, "");
+  EXPECT_FALSE(large.side(0).judgement);
+  EXPECT_NE(large.state().message.find("[e] counts them"), std::string::npos);
+  type(small, "");
+  EXPECT_TRUE(small.side(0).judgement);
+  EXPECT_EQ(small.state().message, "");
+}
+
 TEST(Viewer, FrameTimesExcludeLoading) {
   static constexpr double kLoading_ms = 300;
   Start start = start_with(find_scene("cube").make({}), Cull::back);
