@@ -41,11 +41,10 @@ void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std
   }
 }
 
-void paste(const Image& from, int left, int top, Image& into) {
-  const int x0 = std::max(0, -left), x1 = std::min(from.width, into.width - left);
-  for (int y = std::max(0, -top); y < std::min(from.height, into.height - top) && x0 < x1; ++y)
-    std::copy_n(from.pixels.begin() + std::ptrdiff_t{y} * from.width + x0, x1 - x0,
-                into.pixels.begin() + (std::ptrdiff_t{top} + y) * into.width + left + x0);
+void paste(const Image& from, int left, Image& into) {
+  for (std::ptrdiff_t y = 0; y < from.height; ++y)
+    std::copy_n(from.pixels.begin() + y * from.width, from.width,
+                into.pixels.begin() + y * into.width + left);
 }
 
 Image around(const Image& image, int left, int right, Pixel focus, int reach) {

@@ -1,5 +1,5 @@
-// What is added to a picture: tinted errors, outlines, labels in the scene. What the panel shows of a pixel:
-// those around it, and the triangles that reach it.
+// Additions to a picture: tinted errors, outlines, labels in the scene. For the magnifier: the pixels around
+// one, and the triangles that reach it.
 #pragma once
 
 #include <array>
@@ -61,8 +61,8 @@ struct TriangleOfPixel {
 // Those that cover the sample come first, the nearest of them first.
 std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel);
 
-// Pastes `from` with its upper left corner at (x, y), clipped to `into`.
-void paste(const Image& from, int x, int y, Image& into);
+// Copies `from` to the columns of `into` from `left` on. They must have room for it.
+void paste(const Image& from, int left, Image& into);
 
 std::size_t vertex_count(const Scene& scene);    // of all instances
 inline constexpr std::size_t kMostLabels = 300;  // more would be unreadable

@@ -90,61 +90,49 @@ Scene ring_of_cubes() {
 }
 
 constexpr Step kCulling[] = {
-    {"k<wireframe>r<2>",
-     "Wireframe: the edges of all twelve triangles of the cube are drawn, front and back."},
-    {"2<2>",
-     "[2] culls back faces: the faces left have vertices in clockwise order on the screen (y is down)."},
-    {"21<2>", "[1] culls front faces instead: the far walls are left, seen from inside, as in a diorama."},
+    {"k<wireframe>r<2>", "Wireframe: the edges of all twelve triangles of the cube, front and back."},
+    {"2<2>", "[2] culls back faces: the vertices of the others go clockwise on the screen."},
+    {"21<2>", "[1] culls front faces instead: the far walls are left, as in a diorama."},
     {"<tiled><2>", "[y] fills the triangles: the cube is open towards the camera."},
-    {"v<tab>2<wireframe><1>r",
-     "Left, front faces are culled (a diorama); right, back faces, and the edges of the others are drawn."},
+    {"v<tab>2<wireframe><1>r", "Left, front faces are culled; right, back faces, and only edges are drawn."},
 };
 
 constexpr Step kInsideTest[] = {
-    {"k<float_le><2>",
-     "Inside test <= 0: two triangles draw the pixels on their shared edge, so the edge has double hits."},
-    {"<float_lt><2>",
-     "Inside test < 0: no triangle draws the pixels on a shared edge, so they stay black: gaps."},
-    {"v<tab>2<submission_order><2>",
-     "Right, without culling and depth test, the last submitted face wins: back faces occlude front faces."},
+    {"k<float_le><2>", "Inside test <= 0: both triangles draw their shared edge: double hits."},
+    {"<float_lt><2>", "Inside test < 0: neither triangle draws their shared edge: gaps."},
+    {"v<tab>2<submission_order><2>", "Right, without culling and depth test, the last submitted face wins."},
     {"2<2>", "Right, [2] culls back faces, which suffices for one convex object."},
     {"2<contract31><2>", "Right, [z] a depth buffer suffices for any scene, without culling."},
     {"<submission_order><tab><enter><enter><enter><enter><enter><enter><enter><enter><enter><enter><enter><"
      "2>",
-     "Left, the magnifier shows a gap of the strict test; right, the last face wins, whatever its depth."},
+     "Left, the magnifier shows a gap; right, the last face wins at any depth."},
 };
 
 constexpr Step kClipping[] = {
     {"<screen_edges><painter_mean><2>",
-     "Triangles are clipped at the near plane and the screen edges, and painted back to front."},
+     "Triangles are clipped at near plane and screen edges, then sorted by depth."},
     {"6<2>", "[6] Outlines: clipping cut the white triangles into several pieces."},
     {"t<1>", "[t] Each vertex shows its number."},
     {"wwwww<1>sssss<1>", "[w] moves forwards, until objects cross the near plane, and [s] back."},
     {"m<space><space><space>dddaaa<shift><shift><shift><1>",
-     "[m] moves along the world's axes instead: space and shift go straight up and down."},
+     "[m] moves along the world's axes: space and shift go straight up and down."},
     {"r<1.5>r", "[r] rotates all objects about one axis, (1, 1, 1)."},
-    {"0<1>", "[0] resets camera and rotation: a face turned away from the light keeps 0.15 of its colour."},
+    {"0<1>", "[0] resets the view; faces turned from the light keep 0.15 of their colour."},
 };
 
 constexpr Step kBackface[] = {
-    {"<normal_dot_eye><2>",
-     "A face is kept if its world-space normal and the ray from the camera have a negative dot product; "
-     "objects out of view are culled whole."},
-    {"2<2>",
-     "[2] draws back faces too: a second sheet appears, on the left, which faces away from the camera."},
-    {"27<2>",
-     "[7] shows the state of each face by a letter, a word per object in the panel; capitals: two-sided."},
-    {"<left><2>", "Objects out of view are culled whole; the sheet faces away, but it is two-sided."},
+    {"<normal_dot_eye><2>", "A face is kept if its normal's dot product with the view ray is negative."},
+    {"2<2>", "[2] draws back faces too: on the left, a sheet that faces away appears."},
+    {"27<2>", "[7] shows each face's state as a letter, a capital if the face is two-sided."},
+    {"<left><2>", "Objects out of view are culled whole; the sheet stays, as it is two-sided."},
 };
 
 constexpr Step kTriad[] = {
-    {"<normal_z>k<2>",
-     "A quad is kept if the z of its normal, rotated with the object, points towards the camera."},
-    {"r<2>r", "[r] rotates: about half of the faces of a closed object face away at any time."},
-    {"0kv<tab>2<2>",
-     "Left, these faces are dropped before projection; right, none are, and the picture is the same."},
+    {"<normal_z>k<2>", "A quad is kept if the z of its rotated normal points towards the camera."},
+    {"r<2>r", "[r] rotates: about half of a closed object's faces face away at any time."},
+    {"0kv<tab>2<2>", "Left drops these faces before projection; right does not: equal pictures."},
     {"<wireframe><tab><wireframe>wwwwwwwwwwwwww<1>",
-     "Left: edges of the triangles that are left, two per quad; right: of all, on the far side too."},
+     "Left, edges of the triangles kept, two per quad; right, of all triangles."},
 };
 
 constexpr std::array kDemos{

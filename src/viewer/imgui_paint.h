@@ -1,5 +1,5 @@
-// Paints what Dear ImGui draws into a picture, with integers and by the fill rule of the contract, so that
-// the same picture comes out on every machine.
+// Paints Dear ImGui's draw lists into a picture. Coverage follows the contract's fill rule, so that every
+// machine paints the same.
 #pragma once
 
 #include "edgewise/image.h"

@@ -39,7 +39,7 @@ std::span<const KeyRow> key_table() {
       {"w a s d",
        "move forwards, left, backwards, right",
        {{'w', forwards}, {'a', step_left}, {'s', backwards}, {'d', step_right}}},
-      {"space, shift c", "move up, down", {{Key::space, rise}, {Key::shift, sink}, {'c', sink}}},
+      {"space, shift or c", "move up, down", {{Key::space, rise}, {Key::shift, sink}, {'c', sink}}},
       {"arrows, drag",
        "look around",
        {{Key::up, look_up}, {Key::down, look_down}, {Key::left, look_left}, {Key::right, look_right}}},

@@ -30,7 +30,7 @@ constexpr Key key_of(char c) {
 
 // clang-format off
 enum class Command : std::uint8_t {
-  // Act while the key is held; the first six move, in the order of Session::move():
+  // Act while the key is held; in the order of Session::move():
   forwards, backwards, step_left, step_right, rise, sink,
   look_up, look_down, look_left, look_right, turn_back, turn_on,
   // Act once per key press, and change the picture:

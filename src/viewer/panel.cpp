@@ -13,67 +13,14 @@
 
 #include "support/printable.h"
 #include "viewer/imgui_paint.h"
+#include "viewer/panel_magnifier.h"
+#include "viewer/panel_widgets.h"
 
 namespace edgewise::viewer {
 
 namespace {
 
-constexpr int kWidth = 26;     // of the panel, in heights of the font
-constexpr int kReach = 7;      // of the magnifier, in pixels to each side
-constexpr int kTriangles = 6;  // listed of a pixel
-constexpr std::uint32_t kPlain = rgb(225, 225, 225), kStrong = rgb(255, 255, 255),
-                        kFaint = rgb(150, 150, 150), kNotOurs = rgb(255, 190, 90), kWrong = rgb(255, 120, 90),
-                        kBackground = rgb(30, 31, 34);
-
-float em() {
-  return ImGui::GetFontSize();
-}
-
-// `wrap`: where lines end; 0: at the end of the window.
-void text(std::uint32_t colour, std::string_view words, float wrap = 0.0f) {
-  std::string shown(words);
-  // Dear ImGui's font lacks this sign.
-  constexpr std::string_view kAtMost = "\u2264";
-  for (std::size_t at; (at = shown.find(kAtMost)) != std::string::npos;)
-    shown.replace(at, kAtMost.size(), "<=");
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(wrap);
-  ImGui::TextUnformatted(shown.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-}
-
-template <typename... Values>
-void text(std::uint32_t colour, fmt::format_string<const Values&...> words, const Values&... values) {
-  text(colour, std::string_view(fmt::format(words, values...)));
-}
-
-// At the lower end of the panel, where it hides neither the picture nor the list that the pointer is in.
-void tooltip(std::string_view words) {
-  if (words.empty() || !ImGui::IsItemHovered()) return;
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({window.x - kWidth * em(), window.y}, ImGuiCond_Always, {0.0f, 1.0f});
-  ImGui::BeginTooltip();
-  text(kPlain, words, (kWidth - 1) * em());
-  ImGui::EndTooltip();
-}
-
-bool section(const char* title) {
-  return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
-}
-
-// A square of a colour, at the begin of a line.
-void swatch(std::uint32_t colour) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + em() - 2.0f, at.y + em() - 2.0f},
-                                            colour | 0xFF000000u);
-  ImGui::Dummy({em(), em()});
-  ImGui::SameLine();
-}
-
-ImTextureID id_of(const Image& image) {
-  return const_cast<Image*>(&image);
-}
+constexpr std::uint32_t kBackground = rgb(30, 31, 34);
 
 struct Entry {
   std::string name;
@@ -85,50 +32,55 @@ struct Entry {
 // The widgets, and what they keep from frame to frame. A widget presses the key that it shows.
 class Panel::Contents {
  public:
-  // Once per frame.
+  // Once per picture.
   void prepare(Session& session) {
     session_ = &session;
     std::rotate(frames_ms_.begin(), frames_ms_.begin() + 1, frames_ms_.end());
     frames_ms_.back() = static_cast<float>(state().last_frame_ms);
-    if (state().magnifier) of_pixel_ = triangles_of(session.triangles(magnified()), session.focus());
+    if (state().magnifier) magnifier_.look(session);
   }
+  // Whether a widget changed the session since the last call.
+  bool take_changed() { return std::exchange(changed_, false); }
 
   void lay_out() {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({window.x - kWidth * em(), 0.0f});
-    ImGui::SetNextWindowSize({kWidth * em(), window.y});
+    ImGui::SetNextWindowPos({window.x - kPanelWidth * em(), 0.0f});
+    ImGui::SetNextWindowSize({kPanelWidth * em(), window.y});
     ImGui::Begin("panel", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground);
-    ImGui::BeginChild("contents", {0.0f, -2.5f * ImGui::GetTextLineHeightWithSpacing()});
+    ImGui::BeginChild("contents", {0.0f, -footer_height_});
     if (state().help) {
       help();
     } else {
       steps();
-      if (state().magnifier) magnifier();  // where a low window shows it
+      const bool magnified = state().magnifier;
+      if (magnified) magnifier();  // where a low window shows it
       methods();
       errors();
-      if (!state().magnifier) magnifier();
+      if (!magnified) magnifier();
       times();
       triangles();
       camera();
     }
     ImGui::EndChild();
+    const float top = ImGui::GetCursorPosY();
     ImGui::Separator();
-    if (state().message.empty())
-      text(kFaint, "[h] help  [/] search  [o] hide panel\n[p] save a picture  [q] quit");
-    else
-      text(kStrong, state().message);
+    if (!state().message.empty()) text(kStrong, state().message);
+    button("[h] help", key_of('h'));
+    button_beside("[o] hide", key_of('o'));
+    button_beside("[p] save", key_of('p'));
+    button_beside("[q] quit", key_of('q'));
+    footer_height_ = ImGui::GetCursorPosY() - top;  // of the next pass
     ImGui::End();
   }
 
  private:
   const State& state() const { return session_->state(); }
-  bool both() const { return session_->side_count() > 1; }
-  // The side whose triangles the magnifier lists.
-  std::size_t magnified() const {
-    return state().arrangement == Arrangement::side_by_side ? state().active : 0;
+
+  void press(Key key) {
+    session_->press(key);
+    changed_ = true;
   }
-  const char* prefix(std::size_t side) const { return !both() ? "" : side == 0 ? "left: " : "right: "; }
 
   // A drop-down for what a key cycles through: choosing an entry presses the key as often as it takes.
   void choice(const char* what, char key, const std::vector<Entry>& entries, std::size_t current,
@@ -144,7 +96,7 @@ class Panel::Contents {
     if (!open) tooltip(entries[current].summary);
     for (std::size_t i = 0; open && i < entries.size(); ++i) {
       if (ImGui::Selectable(entries[i].name.c_str(), i == current))
-        for (std::size_t n = current; n % entries.size() != i; ++n) session_->press(key_of(key));
+        for (std::size_t n = current; n % entries.size() != i; ++n) press(key_of(key));
       tooltip(entries[i].summary);
     }
     if (open) ImGui::EndCombo();
@@ -161,7 +113,7 @@ class Panel::Contents {
   void toggle(const char* what, char key, bool on) {
     // A filled box, not a check mark: the lines of that depend on the processor (imgui_paint.cpp).
     ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, on);
-    if (ImGui::Checkbox(fmt::format("[{}] {}", key, what).c_str(), &on)) session_->press(key_of(key));
+    if (ImGui::Checkbox(fmt::format("[{}] {}", key, what).c_str(), &on)) press(key_of(key));
     ImGui::PopItemFlag();
   }
   void toggle_beside(const char* what, char key, bool on) {
@@ -170,7 +122,7 @@ class Panel::Contents {
   }
 
   void button(const char* what, Key key) {
-    if (ImGui::Button(what)) session_->press(key);
+    if (ImGui::Button(what)) press(key);
   }
   void button_beside(const char* what, Key key) {
     ImGui::SameLine();
@@ -179,14 +131,18 @@ class Panel::Contents {
 
   void steps() {
     if (session_->steps().empty() || !section("Steps")) return;
+    const float width = ImGui::GetContentRegionAvail().x;
     for (std::size_t i = 0; i < session_->steps().size(); ++i) {
+      const bool current = i + 1 == state().step;
       const std::string words = fmt::format("{}. {}", i + 1, session_->steps()[i].notice);
-      if (i + 1 == state().step) {
-        text(kStrong, words);
-        continue;
+      const ImVec2 at = ImGui::GetCursorPos(),
+                   size = ImGui::CalcTextSize(words.c_str(), nullptr, false, width);
+      if (ImGui::Selectable(fmt::format("##{}", i).c_str(), current, 0, {0.0f, size.y})) {
+        session_->take_step(i);
+        changed_ = true;
       }
-      if (ImGui::Selectable(words.c_str())) session_->take_step(i);
-      tooltip(words);
+      ImGui::SetCursorPos(at);
+      text(current ? kStrong : kPlain, words);
     }
     button("[8] back", key_of('8'));
     button_beside("[5] next", key_of('5'));
@@ -199,7 +155,7 @@ class Panel::Contents {
     text(kStrong, "{}, {} x {} px", tools::printable(state().scene), size.width, size.height);
     choice("pictures", 'v', {{"one"}, {"side by side"}, {"difference"}},
            static_cast<std::size_t>(state().arrangement));
-    if (both()) {
+    if (session_->side_count() > 1) {
       button("[tab] other side", Key::tab);
       ImGui::SameLine();
       text(kStrong, state().active == 0 ? "side: left" : "side: right");
@@ -231,21 +187,22 @@ class Panel::Contents {
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const Side& side = session_->side(i);
       if (!side.judgement)
-        text(kPlain, "{}{}", prefix(i),
+        text(kPlain, "{}{}", prefix(*session_, i),
              side.choice.fills() ? "not counted" : "edges have no errors to count");
       else
-        text(side.judgement->wrong > 0 ? kWrong : kPlain, "{}{}{}", prefix(i), errors_of(*side.judgement),
+        text(side.judgement->wrong > 0 ? kWrong : kPlain, "{}{}{}", prefix(*session_, i),
+             errors_of(*side.judgement),
              side.judged == state().version ? "" : " (an earlier frame, to keep the frame rate)");
     }
     const Side& side = session_->side(state().active);
     if (!side.judgement) return;
-    constexpr std::pair<lab::Mark, const char*> kKinds[] = {
-        {lab::Mark::gap, "nothing drawn"},
-        {lab::Mark::twice, "drawn twice, or wrong triangle"},
-        {lab::Mark::extra, "outside all triangles"}};
+    constexpr std::pair<lab::Mark, const char*> kKinds[] = {{lab::Mark::gap, "nothing drawn"},
+                                                            {lab::Mark::twice, "twice, or wrong triangle"},
+                                                            {lab::Mark::extra, "outside all triangles"}};
     for (const auto& [mark, what] : kKinds) {
       swatch(lab::colour_of(mark));
-      text(kPlain, "{} {}", side.marked[static_cast<std::size_t>(mark)], what);
+      text(kPlain, "{}{} {}", prefix(*session_, state().active), side.marked[static_cast<std::size_t>(mark)],
+           what);
     }
   }
 
@@ -253,61 +210,29 @@ class Panel::Contents {
     if (!section("Magnifier")) return;
     toggle("at pointer", 'g', state().magnifier);
     button_beside("[enter] wrong pixel", Key::enter);
-    if (!state().magnifier) return;
-    const Pixel focus = session_->focus();
-    const std::size_t views = state().arrangement == Arrangement::side_by_side ? 2 : 1;
-    constexpr int kAcross = 2 * kReach + 1;
-    const float room = (kWidth - 3) * em() / static_cast<float>(views);
-    const float pixel = std::floor(std::min(room / kAcross, 0.8f * em())), all = pixel * kAcross;
-    for (std::size_t i = 0; i < views; ++i) {
-      const int left = session_->left_of(i);
-      zoomed_[i] = around(session_->picture(), left, left + session_->side_size().width, focus, kReach);
-      if (i > 0) ImGui::SameLine();
-      const ImVec2 at = ImGui::GetCursorScreenPos();
-      ImGui::Image(id_of(zoomed_[i]), {all, all});
-      ImDrawList& list = *ImGui::GetWindowDrawList();
-      for (int k = 1; k < kAcross; ++k) {
-        const float by = pixel * static_cast<float>(k);
-        list.AddRectFilled({at.x + by, at.y}, {at.x + by + 1.0f, at.y + all}, 0x60000000u);
-        list.AddRectFilled({at.x, at.y + by}, {at.x + all, at.y + by + 1.0f}, 0x60000000u);
-      }
-      const ImVec2 middle{at.x + pixel * kReach, at.y + pixel * kReach};
-      list.AddRect(middle, {middle.x + pixel + 1.0f, middle.y + pixel + 1.0f}, rgb(255, 255, 0));
-    }
-    text(kStrong, "pixel {}, {}; {}{} triangles reach it", focus.x, focus.y, prefix(magnified()),
-         of_pixel_.size());
-    const std::size_t listed = std::min<std::size_t>(of_pixel_.size(), kTriangles);
-    for (const TriangleOfPixel& t : std::span(of_pixel_).first(listed)) {
-      swatch(t.colour);
-      if (t.covers())
-        text(kPlain, "#{} depth {:.6f}", t.index, t.depth01);
-      else
-        text(kPlain, "#{} misses the sample", t.index);
-      text(kFaint, "  edges {} {} {}", t.edges[0], t.edges[1], t.edges[2]);
-    }
-    if (of_pixel_.size() > listed) text(kPlain, "and {} more", of_pixel_.size() - listed);
-    text(kFaint, "Edge values at the sample, in 1/65536 square pixels. Negative: outside.");
+    if (state().magnifier) magnifier_.lay_out(*session_);
   }
 
   void times() {
     if (state().reproducible || !section("Times")) return;
     const auto targets = supported_targets();
-    const std::vector<int> threads = thread_counts();
+    const std::vector<int> threads = session_->thread_counts();
     std::vector<Entry> names, counts;
     for (const SimdTarget target : targets) names.push_back({std::string(edgewise::name_of(target))});
     for (const int n : threads) counts.push_back({std::to_string(n)});
     const auto target = std::find(targets.begin(), targets.end(), state().execution.target);
-    const auto used = std::lower_bound(threads.begin(), threads.end() - 1, state().execution.threads);
+    const auto used = std::find(threads.begin(), threads.end(), state().execution.threads);
     choice("SIMD target", 'i', names, static_cast<std::size_t>(target - targets.begin()));
     choice("threads", 'j', counts, static_cast<std::size_t>(used - threads.begin()));
     const float most = *std::max_element(frames_ms_.begin(), frames_ms_.end());
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::PlotLines("##frames", frames_ms_.data(), static_cast<int>(frames_ms_.size()), 0,
                      fmt::format("{:.1f} ms per frame, at most {:.1f}", state().frame_ms, most).c_str(), 0.0f,
-                     most, {0.0f, 3.0f * em()});
+                     1.5f * most, {0.0f, 3.0f * em()});  // with the words above the curve
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const Side &side = session_->side(i), &first = session_->side(0);
-      text(kPlain, "{}front end {:.2f} ms, raster {:.2f} ms", prefix(i), side.frontend_ms, side.raster_ms);
+      text(kPlain, "{}front end {:.2f} ms, raster {:.2f} ms", prefix(*session_, i), side.frontend_ms,
+           side.raster_ms);
       const double ratio = (side.frontend_ms + side.raster_ms) / (first.frontend_ms + first.raster_ms);
       if (i > 0)
         text(kPlain, "right: {:.2f}x {} than left", std::max(ratio, 1 / ratio),
@@ -319,10 +244,11 @@ class Panel::Contents {
     if (!section("Triangles")) return;
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const FrontendStats& n = session_->side(i).stats;
-      text(kPlain, "{}{} in, {} outside, {} culled, {}{} drawn", prefix(i), n.triangles,
+      text(kPlain, "{}{} in, {} outside, {} culled, {}{} drawn", prefix(*session_, i), n.triangles,
            n.whole_mesh + n.outside, n.culled,
            session_->side(i).choice.our_clipping() ? fmt::format("{} clipped, ", n.clipped) : "", n.emitted);
-      if (n.meshes > 1) text(kPlain, "{}{} objects, {} culled whole", prefix(i), n.meshes, n.meshes_culled);
+      if (n.meshes > 1)
+        text(kPlain, "{}{} objects, {} culled whole", prefix(*session_, i), n.meshes, n.meshes_culled);
     }
     toggle("outlines", '6', state().outlines);
     ImGui::SameLine();
@@ -337,9 +263,9 @@ class Panel::Contents {
       const Side& side = session_->side(i);
       const bool many = side.faces.size() > kMostLabels;
       if (!side.choice.our_clipping())
-        text(kNotOurs, "{}this clipping method doesn't report face states", prefix(i));
+        text(kNotOurs, "{}this clipping method doesn't report face states", prefix(*session_, i));
       else
-        text(kPlain, "{}{}\n{}", prefix(i), summary_of(side.faces),
+        text(kPlain, "{}{}\n{}", prefix(*session_, i), summary_of(side.faces),
              many ? "too many faces for letters" : letters_of(side.faces));
     }
   }
@@ -377,7 +303,7 @@ class Panel::Contents {
     const auto row = [&](std::string_view name, std::string_view does) {
       if (!filter_.PassFilter(fmt::format("{} {}", name, does).c_str())) return;
       text(kStrong, name);
-      ImGui::SameLine(10.0f * em());
+      ImGui::SameLine(11.0f * em());
       text(kPlain, does);
     };
     if (section("Keys"))
@@ -390,8 +316,9 @@ class Panel::Contents {
   }
 
   Session* session_ = nullptr;
-  std::array<Image, 2> zoomed_;  // painted after lay_out()
-  std::vector<TriangleOfPixel> of_pixel_;
+  bool changed_ = false;
+  float footer_height_ = 0.0f;
+  Magnifier magnifier_;
   std::array<float, 120> frames_ms_{};
   ImGuiTextFilter filter_;
   std::uint64_t searches_ = 0;  // State::searches of the last frame
@@ -422,20 +349,20 @@ ImGuiIO& Panel::current_io() {
 }
 
 int Panel::font_px(tools::Size window) const {
-  constexpr int kHigh_px = 900, kFontsPerHeight = 54;
-  const int wanted = window.height < kHigh_px ? 0 : window.height / kFontsPerHeight;
-  const int px = std::min(std::max(wanted, least_font_px_), window.width / (2 * kWidth));
+  constexpr int kLines = 1080 / 16;  // of text in a high window
+  const int px = std::min(std::max(window.height / kLines, least_font_px_), window.width / (2 * kPanelWidth));
   return px < kFont_px ? 0 : px;
 }
 
 int Panel::width_px(tools::Size window) const {
-  return font_px(window) * kWidth;
+  return font_px(window) * kPanelWidth;
 }
 
 void Panel::set_font(int px) {
   if (px == font_px_) return;
   font_px_ = px;
   ImGuiStyle style;
+  style.ItemSpacing.y = 3.0f;
   style.ScaleAllSizes(static_cast<float>(px) / kFont_px);
   style.ScrollbarRounding = style.TabRounding = 0.0f;
   style.WindowBorderSize = 0.0f;
@@ -469,6 +396,10 @@ const Image& Panel::show(Session& session, tools::Size window) {
   contents_->prepare(session);
   // The layout settles in the second pass; a search box that gets the focus takes text from the third on.
   for (int pass = 0; pass < 3; ++pass) {
+    if (contents_->take_changed()) {
+      session.draw(window, width);
+      contents_->prepare(session);
+    }
     ImGui::NewFrame();
     for (const Key key : std::exchange(released_, {})) io.KeysDown[static_cast<std::size_t>(key)] = false;
     if (std::exchange(mouse_released_, false)) io.MouseDown[0] = false;
@@ -486,7 +417,7 @@ const Image& Panel::show(Session& session, tools::Size window) {
   image_ = {window.width, window.height, std::move(image_.pixels)};
   image_.pixels.assign(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height),
                        kBackground);
-  paste(screen.picture, 0, 0, image_);
+  paste(screen.picture, 0, image_);
   paint(*ImGui::GetDrawData(), image_);
   picture_width_px_ = screen.picture.width;
   return image_;

@@ -19,7 +19,7 @@ namespace edgewise::viewer {
 class Panel {
  public:
   static constexpr int kFont_px = 13;  // the height for which Dear ImGui's font is made
-  // The font is larger than asked for in a high window, and smaller where half of the window is too narrow.
+  // A high window gets a larger font, and a narrow one a smaller font.
   explicit Panel(int least_font_px = kFont_px);
   ~Panel();
   Panel(const Panel&) = delete;

@@ -38,7 +38,7 @@ struct Sdl {
   Sdl() {
     sdl().SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
     sdl().SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    // Copy pixels straight to the window: without a GPU, OpenGL would take longer for that than the drawing.
+    // Copies pixels without OpenGL, which is slower than the drawing where there is no GPU.
     sdl().SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("cannot open a window");
     // Without a display SDL falls back to drivers that show nothing.
@@ -55,9 +55,8 @@ struct Sdl {
   Sdl& operator=(const Sdl&) = delete;
 };
 
-std::optional<Key> key_of(const SDL_Keysym& pressed) {
-  if ((pressed.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) != 0) return std::nullopt;
-  switch (pressed.sym) {
+std::optional<Key> key_of(SDL_Keycode code) {
+  switch (code) {
     case SDLK_UP:
       return Key::up;
     case SDLK_DOWN:
@@ -75,7 +74,7 @@ std::optional<Key> key_of(const SDL_Keysym& pressed) {
       break;
   }
   // SDL key codes below 128 are ASCII.
-  if (pressed.sym > 0 && pressed.sym < 128) return viewer::key_of(static_cast<char>(pressed.sym));
+  if (code > 0 && code < 128) return viewer::key_of(static_cast<char>(code));
   return std::nullopt;
 }
 
@@ -128,11 +127,11 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
     case SDL_QUIT:
       return false;
     case SDL_KEYDOWN:
-      if (event.key.repeat == 0)
-        if (const auto key = key_of(event.key.keysym); key && !panel.press(*key)) session.press(*key);
+      if (event.key.repeat == 0 && (event.key.keysym.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) == 0)
+        if (const auto key = key_of(event.key.keysym.sym); key && !panel.press(*key)) session.press(*key);
       break;
     case SDL_KEYUP:
-      if (const auto key = key_of(event.key.keysym)) {
+      if (const auto key = key_of(event.key.keysym.sym)) {
         panel.release(*key);
         session.release(*key);
       }
@@ -152,7 +151,7 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
       panel.scroll(static_cast<float>(event.wheel.y));
       break;
     case SDL_WINDOWEVENT:
-      if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) session.release_all();
+      if (event.window.event == SDL_WINDOWEVENT_LEAVE) panel.point({-1, -1}, false);  // ends tooltips
       break;
     default:
       break;

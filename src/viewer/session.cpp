@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "core/atomic_file.h"
 #include "edgewise/tri_file.h"
@@ -25,6 +26,9 @@ constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
 // During movement, errors are counted only if the frame is expected to stay within kBudget_ms. The expected
 // judging time decays by kDecay per frame, so that counting is retried every few seconds.
 constexpr double kBudget_ms = 10.0, kDecay = 0.995;
+// Vertices of a scene, or triangles of a stream. With more, a count takes seconds, so the user must ask for
+// it.
+constexpr std::size_t kMostJudged = 100'000;
 
 constexpr bool changes_picture(Command command) {
   return command < Command::axes;
@@ -75,14 +79,6 @@ void update_mean(double now, double& mean) {
 
 }  // namespace
 
-std::vector<int> thread_counts() {
-  const int cores = tools::default_threads();
-  std::vector<int> counts;
-  for (int n = 1; n < cores; n *= 2) counts.push_back(n);
-  counts.push_back(cores);
-  return counts;
-}
-
 Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
   sides_[1].choice = lab::our_choice("tiled");
@@ -103,10 +99,6 @@ void Session::press(Key key) {
 
 void Session::release(Key key) {
   held_.erase(key);
-}
-
-void Session::release_all() {
-  held_.clear();
 }
 
 void Session::type(std::span<const Stroke> strokes, const std::function<void(double)>& pass) {
@@ -133,15 +125,18 @@ void Session::point(Pixel to, bool held) {
     ++state_.version;
   }
   pointer_ = to;
-  focus_ = Pixel{side_size_.width > 0 ? to.x % side_size_.width : 0, to.y};
+  // A drag may leave the picture.
+  const auto within = [](int at, int size) { return std::clamp(at, 0, std::max(size - 1, 0)); };
+  const int left = to.x < left_of(1) ? 0 : left_of(1);
+  focus_ = Pixel{within(to.x - left, side_size_.width), within(to.y, side_size_.height)};
 }
 
 bool Session::still() const {
-  return held_.empty() && (!state_.spinning || state_.frozen);
+  return state_.stream || (held_.empty() && (!state_.spinning || state_.frozen));
 }
 
 void Session::advance(double seconds) {
-  if (!world_ || state_.stream || still()) return;
+  if (!world_ || still()) return;
   const auto passed = static_cast<float>(seconds);
   for (const Key key : held_) move(*command_of(key), passed);
   if (state_.spinning && !state_.frozen) state_.angle += kTurnPerSecond * passed;
@@ -155,27 +150,14 @@ void Session::move(Command command, float seconds) {
   const float distance = state_.speed * std::sqrt(world_->radius()) * seconds,
               turn = kLookPerSecond * seconds;
   constexpr glm::vec3 kDirections[] = {{0, 0, -1}, {0, 0, 1}, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
-  Camera& camera = world_->camera();
+  constexpr glm::vec2 kLooks[] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+  const int i = static_cast<int>(command), first_look = static_cast<int>(Command::look_up);
   if (command <= Command::sink)
-    return viewer::move(camera, distance * kDirections[static_cast<int>(command)], state_.along_view);
-  switch (command) {
-    case Command::look_up:
-      return look(camera, 0, turn);
-    case Command::look_down:
-      return look(camera, 0, -turn);
-    case Command::look_left:
-      return look(camera, turn, 0);
-    case Command::look_right:
-      return look(camera, -turn, 0);
-    case Command::turn_on:
-      state_.angle += kTurnPerSecond * seconds;
-      return;
-    case Command::turn_back:
-      state_.angle -= kTurnPerSecond * seconds;
-      return;
-    default:
-      return;
-  }
+    viewer::move(world_->camera(), distance * kDirections[i], state_.along_view);
+  else if (command <= Command::look_right)
+    look(world_->camera(), turn * kLooks[i - first_look].x, turn * kLooks[i - first_look].y);
+  else
+    state_.angle += (command == Command::turn_on ? kTurnPerSecond : -kTurnPerSecond) * seconds;
 }
 
 void Session::act(Command command) {
@@ -215,7 +197,7 @@ void Session::act(Command command) {
       break;
     case Command::truth:
       state_.truth = next_of_three(state_.truth);
-      for (Side& side : sides_) side.judgement.reset();
+      reset_results();
       break;
     case Command::next_error:
       show_next_error();
@@ -223,7 +205,7 @@ void Session::act(Command command) {
     case Command::arrangement:
       state_.arrangement = next_of_three(state_.arrangement);
       if (state_.arrangement == Arrangement::one) state_.active = 0;
-      reset_times();
+      reset_results();
       break;
     case Command::other_side:
       if (state_.arrangement == Arrangement::one)
@@ -238,7 +220,7 @@ void Session::act(Command command) {
       take_step(state_.step);
       break;
     case Command::help:
-      state_.help = !state_.help;
+      state_.help = !(state_.help && state_.panel);
       state_.panel |= state_.help;
       break;
     case Command::search:
@@ -287,7 +269,7 @@ void Session::switch_by(Command command, int step) {
       break;
     case Command::threads:
       state_.execution.threads =
-          next_in(thread_counts(), step, [&](int n) { return n >= state_.execution.threads; });
+          next_in(thread_counts(), step, [&](int n) { return n == state_.execution.threads; });
       break;
     case Command::target:
       state_.execution.target = next_in(supported_targets(), step,
@@ -296,20 +278,26 @@ void Session::switch_by(Command command, int step) {
     default:
       return;
   }
-  side.judgement.reset();
-  reset_times();
+  reset_results();
 }
 
 void Session::choose(std::string_view method) {
   Side& side = sides_[state_.active];
   if (!put(method, side.choice)) throw std::invalid_argument("unknown method '" + std::string(method) + "'");
-  side.judgement.reset();
-  reset_times();
+  reset_results();
   ++state_.version;
 }
 
-void Session::reset_times() {
-  for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
+std::vector<int> Session::thread_counts() const {
+  const int cores = tools::default_threads();
+  std::set<int> counts{cores, start_.execution.threads};
+  for (int n = 1; n < cores; n *= 2) counts.insert(n);
+  return {counts.begin(), counts.end()};
+}
+
+// Forgets what was measured and counted with other methods or at another size.
+void Session::reset_results() {
+  for (Side& side : sides_) side.judgement.reset();
   state_.frame_ms = 0;
   cold_ = true;
 }
@@ -356,6 +344,12 @@ void Session::load(tools::Size size) {
     side.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
   }
   state_.axis = start_.axis.value_or(world_->first_axis());
+  const std::size_t amount = state_.stream ? std::get<TriangleStream>(world_->drawable()).triangles.size()
+                                           : vertex_count(*world_->scene());
+  if (!start_.reproducible && amount > kMostJudged) {
+    state_.errors = Errors::off;
+    state_.message = "large scene: errors are not counted; [e] counts them";
+  }
 }
 
 View Session::view_of(std::size_t i, tools::Size size) const {
@@ -379,14 +373,13 @@ const Screen& Session::draw(tools::Size window, int panel_width_px) {
     load(size);
     size_ = size;
     ++state_.version;
-    reset_times();
+    reset_results();
   }
-  // Draw twice and time the second frame: the first one also allocates memory and fills caches.
-  if (cold_ && !state_.reproducible) {
-    draw_picture();
-    reset_times();
+  if (std::exchange(cold_, false)) {
+    // Draw twice and time the second frame: the first one also allocates memory and fills caches.
+    if (!state_.reproducible) draw_picture();
+    for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
   }
-  cold_ = false;
   state_.last_frame_ms = tools::milliseconds([&] { draw_picture(); });
   update_mean(state_.last_frame_ms, state_.frame_ms);
   if (save_next_) save();
@@ -408,8 +401,8 @@ void Session::draw_picture() {
     screen_.picture = {size_.width, size_.height, {}};
     screen_.picture.pixels.resize(static_cast<std::size_t>(size_.width) *
                                   static_cast<std::size_t>(size_.height));
-    paste(first, 0, 0, screen_.picture);
-    paste(second, left_of(1), 0, screen_.picture);
+    paste(first, 0, screen_.picture);
+    paste(second, left_of(1), screen_.picture);
   } else {
     Difference both = difference(first, second);
     state_.differing = both.count;

@@ -20,7 +20,8 @@
 
 namespace edgewise::viewer {
 
-// A step of a demo: keys to press after the previous step, as in --keys, and a sentence on what to notice.
+// A step of a demo: keys to press after the previous step, as in --keys, and a sentence on what to notice,
+// which fits into a line of a terminal.
 struct Step {
   std::string_view keys, notice;
 };
@@ -84,16 +85,12 @@ struct State {
   bool reproducible = false;
 };
 
-// The numbers of threads to choose from: 1, 2, 4, … and the number of usable cores.
-std::vector<int> thread_counts();
-
 class Session {
  public:
   explicit Session(Start start);
 
   void press(Key key);
   void release(Key key);
-  void release_all();
   // Selects a method for its stage on the active side. Throws std::invalid_argument for an unknown name.
   void choose(std::string_view method);
   // Types strokes into a session that has been drawn, and draws after each, because some keys depend on the
@@ -120,6 +117,8 @@ class Session {
   const Image& picture() const { return screen_.picture; }  // the last one
   tools::Size side_size() const { return side_size_; }      // of one side's picture
   int left_of(std::size_t side) const { return side == 0 ? 0 : screen_.picture.width - side_size_.width; }
+  // The numbers of threads to choose from: 1, 2, 4, …, the number of usable cores, and that of the start.
+  std::vector<int> thread_counts() const;
   // What the magnifier shows, in one side's picture.
   Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }
   // The front end's output for the last picture of a side.
@@ -142,7 +141,7 @@ class Session {
   Image draw_side(std::size_t side, tools::Size size, double& work_ms);
   void judge_if_due(std::size_t side, const lab::Choice& choice, const View& view, double work_ms);
   void add_labels();
-  void reset_times();
+  void reset_results();
   void show_next_error();
   void save();
 

@@ -46,6 +46,7 @@ TEST(Demos, AreWellFormed) {
     for (const Step& step : demo.steps) {
       EXPECT_TRUE(step.notice.ends_with('.') && step.notice.find(". ") == step.notice.npos)
           << "one sentence: " << step.notice;
+      EXPECT_LE(step.notice.size(), 80 - std::string_view("1/7 ").size()) << step.notice;
       // No command that saves, quits, or depends on the size of the screen.
       for (const Stroke& stroke : parse_keys(step.keys))
         if (const Key* const key = std::get_if<Key>(&stroke)) {

@@ -1,6 +1,7 @@
 // The panel by Dear ImGui: what it shows, that mouse and keys reach it, and that it never covers the picture.
 #include "viewer/panel.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -105,6 +106,8 @@ TEST(Panel, LeavesWithTheKeyOOrForLackOfRoom) {
   Shown shown(session_of("cubes"));
   shown.type("o");
   EXPECT_EQ(shown.show().pixels, shown.session().picture().pixels);
+  shown.type("hoh");
+  EXPECT_TRUE(shown.session().state().panel && shown.session().state().help) << "the help needs the panel";
   Shown narrow(session_of("cubes"), {320, 200});
   EXPECT_EQ(narrow.show().pixels, narrow.session().picture().pixels);
 }
@@ -127,6 +130,14 @@ TEST(Panel, ShowsTheMethodsAndItsDropDownsFollowTheKeys) {
     }
 }
 
+TEST(Panel, ShowsANumberOfThreadsThatNoKeyChooses) {
+  Start start = start_with(find_scene("cube").make({}), Cull::back);
+  start.execution.threads = tools::default_threads() + 1;
+  const std::string threads = std::to_string(start.execution.threads);
+  Shown shown(Session(std::move(start)));
+  EXPECT_NE(widgets(shown.text())["[j]"].find(threads), std::string::npos);
+}
+
 // The first click may open a drop-down, and the second one then chooses an entry.
 TEST(Panel, ObeysTheMouse) {
   std::set<std::string> changed;
@@ -135,12 +146,14 @@ TEST(Panel, ObeysTheMouse) {
     auto before = widgets(shown.text());
     shown.click({shown.panel_left() + 200, y});
     shown.click({shown.panel_left() + 200, y + 45});
+    const Image at_once = shown.session().picture();
     for (const auto& [key, now] : widgets(shown.text()))
       if (before[key] != now) changed.insert(key);
+    EXPECT_EQ(shown.session().picture().pixels, at_once.pixels) << y;
   }
   for (const char* key : {"[v]", "[b]", "[x]", "[z]", "[n]", "[2]", "[k]", "[e]", "[u]", "[i]"})
     EXPECT_TRUE(changed.contains(key)) << key;
-  EXPECT_TRUE(changed.contains("[j]") || thread_counts().size() == 1);
+  EXPECT_TRUE(changed.contains("[j]") || session_of("cubes").thread_counts().size() == 1);
 }
 
 TEST(Panel, EscapeClosesADropDownBeforeItQuits) {
@@ -183,9 +196,9 @@ TEST(Panel, CountsErrorsByKindBesideTheirColours) {
   ASSERT_GT(side.judgement->wrong, 100u);
   EXPECT_TRUE(shown.says(errors_of(*side.judgement)));
   std::uint64_t all = 0;
-  for (const auto& [mark, what] : {std::pair(lab::Mark::gap, " nothing drawn"),
-                                   std::pair(lab::Mark::twice, " drawn twice, or wrong triangle"),
-                                   std::pair(lab::Mark::extra, " outside all triangles")}) {
+  for (const auto& [mark, what] :
+       {std::pair(lab::Mark::gap, " nothing drawn"), std::pair(lab::Mark::twice, " twice, or wrong triangle"),
+        std::pair(lab::Mark::extra, " outside all triangles")}) {
     const std::uint64_t n = side.marked[static_cast<std::size_t>(mark)];
     EXPECT_TRUE(shown.says(std::to_string(n) + what));
     EXPECT_EQ(static_cast<std::uint64_t>(
@@ -213,9 +226,7 @@ TEST(Panel, ListsTheTrianglesOfTheMagnifiedPixel) {
   const std::string text = shown.text();
   EXPECT_NE(text.find(std::to_string(found.size()) + " triangles reach it"), std::string::npos);
   const auto& edges = found.front().edges;
-  EXPECT_NE(text.find("edges " + std::to_string(edges[0]) + " " + std::to_string(edges[1]) + " " +
-                      std::to_string(edges[2])),
-            std::string::npos);
+  EXPECT_NE(text.find(fmt::format(" {} {} {}\n", edges[0], edges[1], edges[2])), std::string::npos);
 }
 
 TEST(Panel, ListsADemosStepsAndGoesToThem) {

@@ -203,6 +203,7 @@ TEST(Viewer, ExplainsWhichMethodsCannotBeCombined) {
   EXPECT_NE(stream.side(0).because.find("no camera"), std::string::npos);
   EXPECT_EQ(wrong(stream), 0u);
   type(stream, "wr,<up>l0t");  // these keys do nothing for a stream
+  EXPECT_TRUE(stream.still());
 }
 
 TEST(Viewer, JudgesAgainstEachTruth) {
@@ -324,10 +325,10 @@ TEST(Viewer, MovesAlongTheViewOrTheWorld) {
   EXPECT_EQ(moved("<space>").z, 0.0f);
   const double slow = moved("<space>").y;
   EXPECT_GT(moved("44<space>").y, 2.0 * slow);
-  // All keys pressed at once, then released.
   for (const char key : {'w', 'd'}) session.press(key_of(key));
+  session.release(key_of('w'));
   EXPECT_FALSE(session.still());
-  session.release_all();
+  session.release(key_of('d'));
   EXPECT_TRUE(session.still());
 }
 
@@ -376,6 +377,23 @@ TEST(Viewer, ComparesTwoSides) {
   EXPECT_NE(session.state().message.find("first difference"), std::string::npos);
   type(session, "v<tab>");
   EXPECT_NE(session.state().message.find("one side only"), std::string::npos);
+}
+
+TEST(Viewer, FocusesTheSamePixelOfEitherSide) {
+  constexpr tools::Size kOdd{241, 160};  // a column between the sides belongs to none
+  Session session = session_of("cubes");
+  type(session, "v", kOdd);
+  ASSERT_EQ(session.left_of(1), 121);
+  for (const auto& [to, seen] : {std::pair(Pixel{5, 7}, Pixel{5, 7}),
+                                 {{119, 7}, {119, 7}},
+                                 {{120, 7}, {119, 7}},
+                                 {{121, 7}, {0, 7}},
+                                 {{240, 159}, {119, 159}},
+                                 {{999, -9}, {119, 0}},
+                                 {{-9, 999}, {0, 159}}}) {
+    session.point(to, false);
+    EXPECT_EQ(std::pair(session.focus().x, session.focus().y), std::pair(seen.x, seen.y));
+  }
 }
 
 TEST(Viewer, CullsEachSideAlone) {
@@ -521,6 +539,16 @@ TEST(Viewer, CountsErrorsOnceAMovingSceneStops) {
   EXPECT_FALSE(session.still());
   type(session, "f");
   EXPECT_EQ(session.side(0).judged, session.state().version);
+}
+
+TEST(Viewer, CountsErrorsOfLargeScenesOnRequestOnly) {
+  Session large = session_of("terrain"), small = session_of("sphere");
+  type(large, "");
+  EXPECT_FALSE(large.side(0).judgement);
+  EXPECT_NE(large.state().message.find("[e] counts them"), std::string::npos);
+  type(small, "");
+  EXPECT_TRUE(small.side(0).judgement);
+  EXPECT_EQ(small.state().message, "");
 }
 
 TEST(Viewer, FrameTimesExcludeLoading) {
