@@ -104,12 +104,6 @@ void copy_out(const std::vector<T>& from, T* to, const char* name) {
   if (!from.empty()) std::copy(from.begin(), from.end(), &given(to, name));
 }
 
-void check_count(const char* what, std::size_t given, std::size_t count) {
-  if (given != count)
-    throw std::invalid_argument(std::to_string(given) + " " + what + " given instead of " +
-                                std::to_string(count));
-}
-
 glm::dmat4 matrix_of(const double* elements) {
   return glm::make_mat4(&given(elements, "matrix"));
 }

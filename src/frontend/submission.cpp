@@ -37,6 +37,12 @@ void check_index(const char* what, std::size_t index, std::size_t count) {
                                 std::to_string(count));
 }
 
+void check_count(const char* what, std::size_t given, std::size_t count) {
+  if (given != count)
+    throw std::invalid_argument(std::to_string(given) + " " + what + " given instead of " +
+                                std::to_string(count));
+}
+
 glm::vec3 checked_light(const glm::dvec3& towards) {
   const double largest = std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)});
   if (!(largest > 0.0 && std::isfinite(glm::dot(towards / largest, glm::dvec3(1.0)))))

@@ -20,6 +20,7 @@ const Mesh& mesh_of(const Scene& scene, const Instance& instance);
 
 // `what` names what is counted.
 void check_index(const char* what, std::size_t index, std::size_t count);
+void check_count(const char* what, std::size_t given, std::size_t count);
 
 // A direction towards the light, within the range of float.
 glm::vec3 checked_light(const glm::dvec3& towards);

@@ -36,6 +36,7 @@
 #include "edgewise/scene.h"
 #include "edgewise/tri_file.h"
 #include "edgewise/visible.h"
+#include "frontend/mesh_clusters.h"
 #include "frontend/submission.h"
 #include "image/format.h"
 #include "lab/needs/needs.h"
@@ -254,13 +255,14 @@ class Drawn {
   }
 
   void draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
-            const py::array& depth, bool ids, const std::string& cull, bool shade, int threads,
-            const std::string& backend, std::uint32_t background, bool clear,
+            const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull, bool shade,
+            int threads, const std::string& backend, std::uint32_t background, bool clear,
             const std::optional<std::array<int, 4>>& scissor) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, true);
     FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
     options.payload = ids ? Payload::id : Payload::colour;
+    options.first_id = first_id;
     options.shade = shade;
     RenderPass pass{.background = background, .clear = clear};
     if (scissor) pass.scissor = {(*scissor)[0], (*scissor)[1], (*scissor)[2], (*scissor)[3]};
@@ -273,15 +275,16 @@ class Drawn {
 
   py::tuple barycentrics(const Matrix& views, const Matrix& projections,
                          const std::optional<py::array>& payload, const py::array& depth,
-                         const std::string& cull, int threads) {
+                         std::uint32_t first_id, const std::string& cull, int threads) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, false);
+    FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
+    options.first_id = first_id;
     if (frames.is_stack) throw std::invalid_argument("barycentrics need a frame of one view");
     Floats uv({frames.height, frames.width, 2}), distance({frames.height, frames.width});
     const BarycentricsView out{uv.mutable_data(), 2 * frames.width, distance.mutable_data(), frames.width};
     for_each_view(cameras, 1, [&](const Drawable& drawable, std::size_t) {
-      edgewise::barycentrics(frames[0], drawable, options_of(frames.width, frames.height, cull, threads),
-                             out);
+      edgewise::barycentrics(frames[0], drawable, options, out);
     });
     return py::make_tuple(uv, distance);
   }
@@ -556,6 +559,24 @@ PYBIND11_MODULE(_native, m) {
              self.use_scene([&](Scene& scene) {
                check_index("instance", index, scene.instances.size());
                scene.instances[index].matrix = matrix;
+             });
+           })
+      .def("remove_instance",
+           [](Drawn& self, std::size_t index) {
+             self.use_scene([&](Scene& scene) {
+               check_index("instance", index, scene.instances.size());
+               scene.instances.erase(scene.instances.begin() + static_cast<std::ptrdiff_t>(index));
+             });
+           })
+      .def("set_positions",
+           [](Drawn& self, std::size_t mesh, const Floats& positions) {
+             check(positions, "positions", {-1, 3});
+             self.use_scene([&](Scene& scene) {
+               check_index("mesh", mesh, scene.meshes.size());
+               check_count("vertices", static_cast<std::size_t>(positions.shape(0)),
+                           scene.meshes[mesh].positions.size());
+               scene.meshes[mesh].positions = copied<glm::vec3>(positions);
+               renew_clusters(scene.meshes[mesh]);
              });
            })
       .def("set_light",

@@ -60,6 +60,12 @@ def test_draws_add_up():
     stack = first.draw(CAMERAS, SIZE)
     second.draw(CAMERAS, SIZE, onto=stack, threads=2)
     assert same(stack, both.draw(CAMERAS, SIZE))
+    ids = second.draw(CAMERA, SIZE, ids=True, first_id=50, onto=first.draw(CAMERA, SIZE, ids=True))
+    assert same(ids, both.draw(CAMERA, SIZE, ids=True)) and (ids.payload[ids.depth < edgewise.DEPTH_CLEAR] >= 50).any()
+    alone = second.draw(CAMERA, SIZE, ids=True, first_id=50)
+    for values, of_first in zip(second.barycentrics(alone, CAMERA, first_id=50),
+                                second.barycentrics(second.draw(CAMERA, SIZE, ids=True), CAMERA)):
+        assert np.array_equal(values, of_first)
 
 
 def test_what_is_drawn_onto_is_returned_and_may_be_cleared():
@@ -138,13 +144,22 @@ def test_a_scene_copies_its_input():
     assert same(drawn.draw(CAMERA, SIZE), before)
 
 
-def test_instances_move_and_lights_turn():
+def test_instances_and_vertices_move_and_lights_turn():
     positions, indices, colours = triangles()
     moved, placed = edgewise.Scene(positions, indices, colours=colours), edgewise.Scene()
     placed.add_instance(placed.add_mesh(positions, indices, colours=colours), MOVED)
     assert not same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
     moved.set_instance(0, MOVED)
     assert same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
+    moved.add_instance(0)
+    assert not same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
+    moved.remove_instance(1)
+    assert same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
+    for drawn in (moved, placed):
+        drawn.set_positions(0, positions[::-1])
+    expected = edgewise.Scene(positions[::-1], indices, colours=colours)
+    expected.set_instance(0, MOVED)
+    assert same(moved.draw(CAMERA, SIZE), expected.draw(CAMERA, SIZE)) and same(placed.draw(CAMERA, SIZE), moved.draw(CAMERA, SIZE))
     moved.set_light((-1, 0.25, 0.5))
     assert not np.array_equal(moved.draw(CAMERA, SIZE).payload, placed.draw(CAMERA, SIZE).payload)
     assert same(moved.draw(CAMERA, SIZE, shade=False), placed.draw(CAMERA, SIZE, shade=False))

@@ -313,6 +313,14 @@ class Scene(_Drawable):
         """Moves an instance."""
         self._native.set_instance(instance, _array(matrix, np.float64))
 
+    def remove_instance(self, instance: int) -> None:
+        """Removes an instance. The numbers of later ones decrease by one."""
+        self._native.remove_instance(instance)
+
+    def set_positions(self, mesh: int, positions: ArrayLike) -> None:
+        """Moves a mesh's vertices, for animation. positions: as many as before, shape (n, 3), float32; they are copied."""
+        self._native.set_positions(mesh, _array(positions, np.float32))
+
     def set_light(self, direction: Sequence[float]) -> None:
         """The direction towards the light, in world space: three numbers, finite, and of any length but 0."""
         self._native.set_light(*direction)
@@ -325,14 +333,15 @@ class Scene(_Drawable):
         """A camera that sees the whole scene in images whose width is `aspect` times their height."""
         return Camera(*self._native.camera(aspect))
 
-    def draw(self, camera: Camera | Sequence[Camera], size: tuple[int, int], *, ids: bool = False, cull: str = "none",
-             shade: bool = True, threads: int = 1, backend: str = "tiled", background: int | None = None,
+    def draw(self, camera: Camera | Sequence[Camera], size: tuple[int, int], *, ids: bool = False, first_id: int = 0,
+             cull: str = "none", shade: bool = True, threads: int = 1, backend: str = "tiled", background: int | None = None,
              scissor: tuple[int, int, int, int] | None = None, onto: Frame | None = None, clear: bool = False,
              depth_only: bool = False) -> Frame:
         """Draws the scene, seen by one camera or by several.
 
         size: width, height in pixels, at most 16384.
         ids: payloads are ids, not colours.
+        first_id: the id of the first triangle; in a draw over others, the number of their triangles.
         cull: none, back, front or both.
         shade: multiplies colours by the light.
         threads: 1 to 256.
@@ -340,15 +349,15 @@ class Scene(_Drawable):
         background: the payload of pixels that no triangle covers; by default BACKGROUND_ID or BLACK.
         scissor: x, y, width, height, the only pixels to draw. The others keep what `onto` holds, or are background.
         onto: a frame that is drawn over, as if both draws were one, and returned; else the frame is new. Its planes must
-          not overlap, and their rows must be contiguous. Ids begin at 0 in each scene.
+          not overlap, and their rows must be contiguous.
         clear: clears `onto` first, inside the scissor.
         depth_only: neither makes nor writes payloads.
         """
         several = not isinstance(camera, Camera)
-        return self._draw(camera if several else [camera], several, size, (cull, shade, threads, backend), ids, background,
-                          scissor, onto, clear, depth_only)
+        return self._draw(camera if several else [camera], several, size, (first_id, cull, shade, threads, backend), ids,
+                          background, scissor, onto, clear, depth_only)
 
-    def barycentrics(self, frame: Frame, camera: Camera, *, cull: str = "none",
+    def barycentrics(self, frame: Frame, camera: Camera, *, first_id: int = 0, cull: str = "none",
                      threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Perspective-correct coordinates of the triangle's point that each pixel of a frame of ids shows.
 
@@ -357,7 +366,7 @@ class Scene(_Drawable):
         of the distance below 2**-23 of it. Background: 0 and infinity. In a parallel projection, the distance is the depth
         in 0 ... 1. ValueError if the frame shows something else than this scene, seen by this camera, with this culling.
         """
-        return self._native.barycentrics(*_matrices([camera]), *frame, cull, threads)
+        return self._native.barycentrics(*_matrices([camera]), *frame, first_id, cull, threads)
 
     def pixels_per_instance(self, frame: Frame) -> NDArray[np.uint32]:
         """The number of pixels of each instance in a frame of ids: shape (instances,), or (views, instances)."""
@@ -422,17 +431,18 @@ class Stream(_Drawable):
         """Width, height in pixels of the image that the triangles are made for."""
         return self._native.size()
 
-    def draw(self, size: tuple[int, int] | None = None, *, ids: bool = False, cull: str = "none", threads: int = 1,
-             backend: str = "tiled", background: int | None = None, scissor: tuple[int, int, int, int] | None = None,
-             onto: Frame | None = None, clear: bool = False, depth_only: bool = False) -> Frame:
+    def draw(self, size: tuple[int, int] | None = None, *, ids: bool = False, first_id: int = 0, cull: str = "none",
+             threads: int = 1, backend: str = "tiled", background: int | None = None,
+             scissor: tuple[int, int, int, int] | None = None, onto: Frame | None = None, clear: bool = False,
+             depth_only: bool = False) -> Frame:
         """Draws the triangles, unlit. Another size than the stream's crops the picture. The others as Scene.draw()."""
-        return self._draw([], False, size or self.size, (cull, False, threads, backend), ids, background, scissor, onto,
-                          clear, depth_only)
+        return self._draw([], False, size or self.size, (first_id, cull, False, threads, backend), ids, background, scissor,
+                          onto, clear, depth_only)
 
-    def barycentrics(self, frame: Frame, *, cull: str = "none",
+    def barycentrics(self, frame: Frame, *, first_id: int = 0, cull: str = "none",
                      threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """As Scene.barycentrics(); the distance is the depth in 0 ... 1."""
-        return self._native.barycentrics(*_matrices([]), *frame, cull, threads)
+        return self._native.barycentrics(*_matrices([]), *frame, first_id, cull, threads)
 
     def needs(self, size: tuple[int, int] | None = None, *, cull: str = "none", displacement: float | None = None,
               threads: int = 1) -> Needs:
