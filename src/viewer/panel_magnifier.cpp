@@ -48,8 +48,9 @@ void Magnifier::lay_out(const Session& session) {
     if (i > 0) ImGui::SameLine();
     show_grid(zoomed_[i], std::floor(std::min(room / kAcross, 0.8f * em())));
   }
-  text(kStrong, "pixel {}, {}; {}{} triangles reach it", focus.x, focus.y, prefix(session, side_),
-       triangles_.size());
+  text(kStrong, "pixel {}, {}; {}{}", focus.x, focus.y, prefix(session, side_),
+       triangles_.size() == 1 ? "1 triangle reaches it"
+                              : fmt::format("{} triangles reach it", triangles_.size()));
   if (triangles_.empty()) return;
   text(kFaint, "number, depth, edge values in 1/65536 px²");
   const std::size_t listed = std::min(triangles_.size(), kMostTriangles);

@@ -24,7 +24,7 @@ inline float em() {
 }
 
 // `wrap`: where lines end; 0: at the end of the window.
-inline void text(std::uint32_t colour, std::string_view words, float wrap = 0.0f) {
+inline void wrapped(std::uint32_t colour, std::string_view words, float wrap) {
   std::string shown(words);
   // Dear ImGui's font lacks this sign.
   constexpr std::string_view kAtMost = "\u2264";
@@ -37,9 +37,12 @@ inline void text(std::uint32_t colour, std::string_view words, float wrap = 0.0f
   ImGui::PopStyleColor();
 }
 
+inline void text(std::uint32_t colour, std::string_view words) {
+  wrapped(colour, words, 0.0f);
+}
 template <typename... Values>
 void text(std::uint32_t colour, fmt::format_string<const Values&...> words, const Values&... values) {
-  text(colour, std::string_view(fmt::format(words, values...)));
+  wrapped(colour, fmt::format(words, values...), 0.0f);
 }
 
 // At the lower end of the panel, where it hides neither the picture nor the list that the pointer is in.
@@ -48,7 +51,7 @@ inline void tooltip(std::string_view words) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({window.x - kPanelWidth * em(), window.y}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::BeginTooltip();
-  text(kPlain, words, (kPanelWidth - 1) * em());
+  wrapped(kPlain, words, (kPanelWidth - 1) * em());
   ImGui::EndTooltip();
 }
 

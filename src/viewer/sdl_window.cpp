@@ -174,6 +174,7 @@ void show_sdl_window(Session& session, const WindowOptions& options) {
     for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, panel, session);
     session.advance(std::min(passed, kLongestStep_s));
     window.show(session, panel);
+    open = open && !session.done();  // the panel has a button for it
     if (const auto left = kFrame - (Clock::now() - now); left.count() > 0)
       sdl().Delay(static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }

@@ -138,6 +138,13 @@ TEST(Panel, ShowsANumberOfThreadsThatNoKeyChooses) {
   EXPECT_NE(widgets(shown.text())["[j]"].find(threads), std::string::npos);
 }
 
+TEST(Panel, ShowsTheSpeed) {
+  Shown shown(session_of("cube"));
+  EXPECT_TRUE(shown.says("speed 1\n"));
+  shown.type("4");
+  EXPECT_TRUE(shown.says("speed 1.5\n"));
+}
+
 // The first click may open a drop-down, and the second one then chooses an entry.
 TEST(Panel, ObeysTheMouse) {
   std::set<std::string> changed;
@@ -224,6 +231,7 @@ TEST(Panel, ListsTheTrianglesOfTheMagnifiedPixel) {
   const auto found = triangles_of(shown.session().triangles(0), focus);
   ASSERT_FALSE(found.empty());
   const std::string text = shown.text();
+  ASSERT_GT(found.size(), 1u);
   EXPECT_NE(text.find(std::to_string(found.size()) + " triangles reach it"), std::string::npos);
   const auto& edges = found.front().edges;
   EXPECT_NE(text.find(fmt::format(" {} {} {}\n", edges[0], edges[1], edges[2])), std::string::npos);

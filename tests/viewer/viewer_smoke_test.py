@@ -194,14 +194,14 @@ class Window(Viewer):
         wait_for(lambda: self.shown() != help_again, "the end of the help")
         home = picture()
         for y in range(10, 300, 10):  # down the panel, until a method or culling changes the picture
-            for place in (y, y + 45, 590):  # opens a list, chooses from it, or closes it
+            for place in (y, y + 45, 597):  # opens a list, chooses from it, or closes it
                 self.xdo("mousemove", "--window", self.window, "750", str(place), "click", "1")
                 time.sleep(0.1)
             if picture() != home:
                 break
         else:
             self.fail("no click in the panel changed the picture")
-        self.xdo("key", "q")
+        self.xdo("mousemove", "--window", self.window, "812", "583", "click", "1")  # the button "quit"
         self.program.communicate(timeout=PATIENCE_S)
         self.assertEqual(self.program.returncode, 0)
 
