@@ -161,7 +161,7 @@ def intrinsics(k: ArrayLike, width: int, height: int, near: float, far: float = 
 
 def projection_from(projection: ArrayLike, *, z_from_minus_w: bool = False, y_down: bool = False,
                     reversed: bool = False) -> NDArray[np.float64]:
-    """Turns a projection into another clip space into one into ours.
+    """Converts a projection into another clip space to ours, shape (4, 4). The picture stays the same.
 
     z_from_minus_w: visible where -w <= z <= w (OpenGL). y_down: Vulkan. reversed: the near plane is where z is largest.
     """
