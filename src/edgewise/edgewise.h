@@ -26,7 +26,7 @@
 #include <stdint.h>
 
 /* Raised when a function or a struct changes so that programs must be compiled anew. */
-#define EDGEWISE_ABI 1
+#define EDGEWISE_ABI 2
 
 #ifdef __cplusplus
 extern "C" {

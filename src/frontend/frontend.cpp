@@ -170,8 +170,10 @@ struct Frontend::State {
     stats += order.stats();
   }
 
+  std::uint32_t first_id() const { return options.payload == Payload::id ? options.first_id : 0; }
+
   void run(const Drawable& drawable) {
-    const std::size_t count = checked_count(submitted(drawable), options.first_id);
+    const std::size_t count = checked_count(submitted(drawable), first_id());
     if (options.keep_states) states.reserve(count);
     run_once(drawable, count, count);
     // Clipping added more triangles than were dropped. This is rare, and the memory then suffices for the
@@ -202,7 +204,7 @@ TriangleSource* Frontend::start_source(const Drawable& drawable, const FrontendO
   const auto* stream = std::get_if<TriangleStream>(&drawable);
   if (stream == nullptr || options.keep_unsnapped || options.keep_states) return nullptr;
   s.stats = {};
-  s.stats.triangles = checked_count(stream->triangles.size(), options.first_id);
+  s.stats.triangles = checked_count(stream->triangles.size(), s.first_id());
   s.order.start_frame(workers, kChunkTriangles, false);
   return &s.source.emplace(s.options, *stream, s.order);
 }

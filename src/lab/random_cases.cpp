@@ -331,7 +331,7 @@ std::optional<Case> with_matrices(const Case& c) {
   const auto m = random_matrices(random, std::get<Scene>(*c.drawable).camera, c.width, c.height);
   if (!m) return {};
   Case other = c;
-  other.family = "matrices";
+  other.family += " with matrices";
   std::get<Scene>(*other.drawable).matrices = m;
   return other;
 }

@@ -16,7 +16,7 @@ namespace edgewise::randomized {
 
 struct Case {
   std::uint64_t number = 0;
-  std::string_view family;
+  std::string family;
   int width = 0, height = 0;  // px
   std::uint32_t background = 0;
   int threads = 2;  // the thread count of the multi-threaded draws
@@ -33,10 +33,10 @@ struct Case {
 Case make_case(std::uint64_t seed, std::uint64_t number);
 
 // Matrices that show about what a camera does: of the kinds that camera.h has helpers for, and general ones.
-// None if the front end refuses them, or the camera.
+// Empty if the front end refuses the camera or the matrices.
 std::optional<CameraMatrices> random_matrices(Random& random, const Camera& camera, int width, int height);
-// The case with matrices in place of its camera; of every second scene, if there are any. make_case() has
-// none, so that its cases stay those whose hashes are stored.
+// The case with matrices in place of its camera. Half of the scenes get some; empty for the others, and for
+// lists of triangles. make_case() makes none, so that its cases stay those whose hashes are stored.
 std::optional<Case> with_matrices(const Case& c);
 
 // Families of scenes that go through the front end.

@@ -98,8 +98,8 @@ constexpr Step kCulling[] = {
 };
 
 constexpr Step kInsideTest[] = {
-    {"k<float_le><2>", "Inside test <= 0: both triangles draw their shared edge: double hits."},
-    {"<float_lt><2>", "Inside test < 0: neither triangle draws their shared edge: gaps."},
+    {"k<float_le><2>", "Inside test <= 0: both triangles draw their shared edge (double hits)."},
+    {"<float_lt><2>", "Inside test < 0: neither triangle draws their shared edge (gaps)."},
     {"v<tab>2<submission_order><2>", "Right, without culling and depth test, the last submitted face wins."},
     {"2<2>", "Right, [2] culls back faces, which suffices for one convex object."},
     {"2<contract31><2>", "Right, [z] a depth buffer suffices for any scene, without culling."},

@@ -117,7 +117,7 @@ class Session {
   const Image& picture() const { return screen_.picture; }  // the last one
   tools::Size side_size() const { return side_size_; }      // of one side's picture
   int left_of(std::size_t side) const { return side == 0 ? 0 : screen_.picture.width - side_size_.width; }
-  // The numbers of threads to choose from: 1, 2, 4, …, the number of usable cores, and that of the start.
+  // The numbers of threads to choose from: 1, 2, 4, …, the number of usable cores, and the one at the start.
   std::vector<int> thread_counts() const;
   // What the magnifier shows, in one side's picture.
   Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }

@@ -13,6 +13,8 @@
 namespace edgewise {
 namespace {
 
+constexpr CellGrid kGrid{1024, 1024, 6, 6};
+
 // A triangle whose bounding box is a square of `px`.
 ScreenTriangle of_side(int px) {
   ScreenTriangle t{};
@@ -28,7 +30,7 @@ std::vector<ScreenTriangle> triangles(std::size_t count, int px, std::size_t las
 std::vector<std::size_t> bounds(const std::vector<ScreenTriangle>& triangles, std::size_t parts) {
   WorkPartition partition;
   StoredTriangles source(triangles);
-  partition.cut_by_work(source, 1024, 1024, true, parts);
+  partition.cut_by_work(source, kGrid, true, parts);
   return {partition.bounds().begin(), partition.bounds().end()};
 }
 using Bounds = std::vector<std::size_t>;
@@ -66,7 +68,7 @@ TEST(WorkPartition, HasLongerPartsOfInputsWithoutTriangles) {
   HalfEmpty source;
   WorkPartition partition;
   for (const bool masks : {false, true}) {
-    partition.cut_by_work(source, 1024, 1024, masks, 2);
+    partition.cut_by_work(source, kGrid, masks, 2);
     EXPECT_NEAR(static_cast<double>(partition.bounds()[1]), 1.25 * half, 500.0);
   }
 }

@@ -342,10 +342,13 @@ void run(const Plan& plan, Report& report) {
   until_deadline.stop = [&] { return plan.stop() || seconds() >= plan.seconds; };
   Checker checker(until_deadline, report);
   while (report.cases < plan.cases && report.seconds < plan.seconds && !plan.stop()) {
-    const Case c = make_case(plan.seed, plan.shard.index + report.cases * plan.shard.of);
+    Case c = make_case(plan.seed, plan.shard.index + report.cases * plan.shard.of);
     try {
       checker.check(c);
-      if (const auto other = with_matrices(c)) checker.check(*other);
+      if (auto other = with_matrices(c)) {
+        c = *std::move(other);
+        checker.check(c);
+      }
     } catch (const std::exception& error) {
       report.findings.push_back(
           fmt::format("seed {}, case {} ({}): {}", plan.seed, c.number, c.family, tools::reason_of(error)));

@@ -200,7 +200,7 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
   const MaskFinder find_masks = small == Small::as_masks ? mask_finder(target) : nullptr;
   const ScreenTriangle* const stored = source.stored();
   if (find_masks != nullptr || stored == nullptr)
-    partition_.cut_by_work(source, grid.width, grid.height, find_masks != nullptr, used_slices_);
+    partition_.cut_by_work(source, grid, find_masks != nullptr, used_slices_);
   else
     partition_.cut_equally(source.size(), used_slices_);
   // Index in kept_ of the first triangle of a slice. Clipping may add an eighth to a slice's triangles, and

@@ -53,8 +53,8 @@ struct CellBoxes {
   }
 };
 
-// Writes the boxes of kPacket triangles. Bit i of the result is set if the box of triangle i holds a
-// sample; the other boxes are unspecified. `prefetch`: prefetch the triangles that follow in memory.
+// Writes the boxes of kPacket triangles. Bit i of the result is set if the drawn part of triangle i's box
+// holds a sample; the other boxes are unspecified. `prefetch`: prefetch the triangles that follow in memory.
 using CellBoxKernel = std::uint64_t (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
                                         CellBoxes& out);
 

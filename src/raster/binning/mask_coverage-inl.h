@@ -1,8 +1,8 @@
 // Finds the samples that small triangles cover, and the inputs of their depth planes, one 32-bit lane per
 // triangle.
 //
-// A triangle is small if its vertices are less than 16 px apart on both axes and its box in the image is at
-// most 8 x 8 px. So steps and distances stay below 2^12 sub-units, and edge values below 2^25.
+// A triangle is small if its vertices are less than 16 px apart on both axes and the drawn part of its box
+// is at most 8 x 8 px. So steps and distances stay below 2^12 sub-units, and edge values below 2^25.
 #include <hwy/highway.h>
 
 #include <bit>

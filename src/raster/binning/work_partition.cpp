@@ -16,8 +16,8 @@ namespace {
 // longer than binning anyway.
 constexpr std::uint32_t kWorkPerInput = 8, kWorkPerTriangle = 8;
 
-std::uint32_t work(const ScreenTriangle& triangle, int width, int height, bool masks) {
-  const contract::PixelBox box = contract::pixel_box(triangle, width, height);
+std::uint32_t work(const ScreenTriangle& triangle, const CellGrid& grid, bool masks) {
+  const contract::PixelBox box = box_in(grid, triangle);
   const int columns = box.x1 - box.x0, rows = box.y1 - box.y0;
   if (!masks || box.empty() || std::max(columns, rows) > kMaskSide) return kWorkPerTriangle;
   return kWorkPerTriangle + static_cast<std::uint32_t>(columns * rows);
@@ -30,7 +30,7 @@ void WorkPartition::cut_equally(std::size_t count, std::size_t slices) {
   for (std::size_t i = 0; i <= slices; ++i) bounds_[i] = count * i / slices;
 }
 
-void WorkPartition::cut_by_work(TriangleSource& source, int width, int height, bool masks,
+void WorkPartition::cut_by_work(TriangleSource& source, const CellGrid& grid, bool masks,
                                 std::size_t slices) {
   cut_equally(source.size(), slices);
   // Evaluating the probes takes about 10 us per slice, or 50 us if triangles are made, one slice after the
@@ -45,7 +45,7 @@ void WorkPartition::cut_by_work(TriangleSource& source, int width, int height, b
   work_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     work_[i] = kWorkPerInput;
-    for (const ScreenTriangle& t : source.probe(probe_index(i))) work_[i] += work(t, width, height, masks);
+    for (const ScreenTriangle& t : source.probe(probe_index(i))) work_[i] += work(t, grid, masks);
   }
   const auto sum = [&](std::size_t first, std::size_t probes) {
     const auto begin = work_.begin() + static_cast<std::ptrdiff_t>(first);

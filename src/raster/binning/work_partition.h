@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/triangle_source.h"
+#include "raster/binning/cell_boxes.h"
 
 namespace edgewise {
 
@@ -17,8 +18,8 @@ class WorkPartition {
   void cut_equally(std::size_t count, std::size_t slices);
   // Cuts by the estimated work of making and binning the triangles of some probed inputs. Falls back to
   // equal lengths where these are balanced, or where there are too few inputs for probes to pay.
-  // `width`, `height`: of the image, px. `masks`: small triangles become coverage masks.
-  void cut_by_work(TriangleSource& source, int width, int height, bool masks, std::size_t slices);
+  // `masks`: small triangles become coverage masks.
+  void cut_by_work(TriangleSource& source, const CellGrid& grid, bool masks, std::size_t slices);
   std::span<const std::size_t> bounds() const { return bounds_; }
 
  private:

@@ -3,6 +3,7 @@
 // 1. Depth and payload of the tile live in a buffer of 32 KB. With its lists a tile uses about 46 KB, which
 //    fits an L1 cache of 48 KB; with one of 32 KB, part of it lies in L2. The buffer is stored to the frame
 //    once. Only the buffer's depths are cleared: pixels whose depth is still clear get the background.
+//    A tile that is drawn over is read into the buffer instead.
 // 2. The buffer is stored in blocks of 4 x 4 pixels, 16 consecutive integers: one AVX-512 vector, two of
 //    AVX2, four of SSE4 or NEON (tile_blocks-inl.h). 4 x 4 wastes fewer lanes on small triangles than 16 x 1.
 // 3. Triangles are set up for the tile, a vector at a time (tile_setup-inl.h, tile_arithmetic-inl.h). An edge

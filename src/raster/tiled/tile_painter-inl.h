@@ -28,13 +28,34 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
+// Sets zmax to the farthest depth that a block holds. Returns whether any block's zmax is below kDepthClear.
+inline bool load_hiz(const TileTask& task, Tile& tile) {
+  const D d;
+  const int columns = (task.width() + kBlockSide - 1) / kBlockSide,
+            rows = (task.height() + kBlockSide - 1) / kBlockSide;
+  V least = hn::Set(d, wrap(kDepthClear));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const std::int32_t* const block = tile.depth() + (row * kMaxBlocks + column) * kBlockPixels;
+      V most = hn::Load(d, block);
+      for (int p = 1; p < kVectors; ++p) most = hn::Max(most, hn::Load(d, block + p * kLanes));
+      most = hn::MaxOfLanes(d, most);
+      least = hn::Min(least, most);
+      *tile.hiz.at(column, row) = hn::GetLane(most);
+    }
+  return hn::GetLane(least) < wrap(kDepthClear);
+}
+
 // Draws a tile's triangles and coverage masks, in submission order.
 template <class Arithmetic>
 class TilePainter {
  public:
-  // `occludes`: whether a block's zmax is not clear.
-  TilePainter(const TileTask& task, Tile& tile, bool occludes)
-      : task_(task), tile_(tile), small_(tile), masks_(*task.bins, task.cell), occludes_(occludes) {}
+  TilePainter(const TileTask& task, Tile& tile)
+      : task_(task),
+        tile_(tile),
+        small_(tile),
+        masks_(*task.bins, task.cell),
+        stale_(!task.part.clear && task.hierarchical_depth) {}
 
   HWY_NOINLINE void draw_segment(const Bins::Segment& segment) {
     Candidates* next = candidates_;
@@ -56,6 +77,8 @@ class TilePainter {
         small_.add(batch_, k);
       } else {
         small_.draw();
+        if (stale_) [[unlikely]]
+          stale_ = false, occludes_ = load_hiz(task_, tile_);
         // Thin triangles fill no block, so they occlude none.
         occludes_ = occludes_ || (task_.hierarchical_depth && may_fill_blocks(batch_, k));
         if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
@@ -94,26 +117,9 @@ class TilePainter {
   SmallTriangles<Arithmetic> small_;
   Candidates candidates_[2];  // one is filled while the other waits
   Bins::MaskReader masks_;
-  bool occludes_;
+  bool occludes_ = false;
+  bool stale_;  // zmax is not that of the loaded depths
 };
-
-// Sets zmax to the farthest depth that a block holds. Returns whether that of any block is not clear.
-inline bool load_hiz(const TileTask& task, Tile& tile) {
-  const D d;
-  const int columns = (task.width() + kBlockSide - 1) / kBlockSide,
-            rows = (task.height() + kBlockSide - 1) / kBlockSide;
-  V least = hn::Set(d, wrap(kDepthClear));
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      const std::int32_t* const block = tile.depth() + (row * kMaxBlocks + column) * kBlockPixels;
-      V most = hn::Load(d, block);
-      for (int p = 1; p < kVectors; ++p) most = hn::Max(most, hn::Load(d, block + p * kLanes));
-      most = hn::MaxOfLanes(d, most);
-      least = hn::Min(least, most);
-      *tile.hiz.at(column, row) = hn::GetLane(most);
-    }
-  return hn::GetLane(least) < wrap(kDepthClear);
-}
 
 template <class Arithmetic>
 void draw_tile_in(const TileTask& task) {
@@ -124,14 +130,13 @@ void draw_tile_in(const TileTask& task) {
       for (int i = 0; i < size * kBlockSide; i += kLanes)
         hn::Store(hn::Set(D{}, wrap(value)), D{}, plane + y * kMaxTile + i);
   };
-  clear(tile.depth(), kDepthClear);
+  clear(tile.depth(), task.part.clear ? kDepthClear : 0);
   if (!InVectors(task).all) clear(tile.payload(), task.part.background);
   read_tile(task, tile.depth(), tile.payload(),
             [](const FramePlane& from, std::int32_t* buffer) { read_blocks(from, buffer); });
   tile.hiz.clear(task.width(), task.height());
 
-  const bool occludes = !task.part.clear && task.hierarchical_depth && load_hiz(task, tile);
-  TilePainter<Arithmetic> painter(task, tile, occludes);
+  TilePainter<Arithmetic> painter(task, tile);
   task.bins->for_each_segment_ahead(task.cell,
                                     [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
   painter.draw_rest();
