@@ -20,6 +20,7 @@
 #include "edgewise/visible.h"
 #include "frontend/mesh_clusters.h"
 #include "frontend/submission.h"
+#include "frontend/view.h"
 #include "raster/checks.h"
 
 using namespace edgewise;
@@ -194,6 +195,7 @@ edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const 
     check_index("mesh", mesh, s.meshes.size());
     Instance instance{.mesh = mesh};
     if (matrix != nullptr) instance.matrix = matrix_of(matrix);
+    check(instance);
     s.instances.push_back(instance);
     if (index != nullptr) *index = s.instances.size() - 1;
   });
@@ -203,7 +205,9 @@ edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, co
   return status_of([&] {
     auto& instances = meshes_of(scene).instances;
     check_index("instance", instance, instances.size());
-    instances[instance].matrix = matrix_of(matrix);
+    const glm::dmat4 moved = matrix_of(matrix);
+    check(Instance{.matrix = moved});
+    instances[instance].matrix = moved;
   });
 }
 

@@ -36,8 +36,13 @@ def read_obj(path):
     """The positions and triangles of an OBJ file. Faces become fans, as in Edgewise."""
     try:
         lines = [line.split() for line in path.read_text(encoding="utf-8", errors="replace").splitlines()]
-        positions = [line[1:4] for line in lines if line[:1] == ["v"]]
-        faces = [[int(corner.partition("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
+        positions, faces = [], []
+        for keyword, *values in filter(None, lines):
+            if keyword == "v":
+                positions.append(values[:3])
+            elif keyword == "f":  # negative numbers count back from the last position
+                numbers = [int(corner.partition("/")[0]) for corner in values]
+                faces.append([n - 1 if n > 0 else len(positions) + n for n in numbers])
         triangles = [(face[0], *face[i:i + 2]) for face in faces for i in range(1, len(face) - 1)]
         mesh = Mesh(np.array(positions, np.float32).reshape(-1, 3), np.array(triangles).astype(np.uint32).reshape(-1, 3))
     except (OSError, ValueError, OverflowError) as error:

@@ -144,7 +144,8 @@ typedef struct edgewise_options {
   int cull; /* EDGEWISE_CULL_NONE ... EDGEWISE_CULL_BOTH: which triangles to drop for their facing */
   int ids;  /* if not 0, payloads are ids: first_id plus a triangle's number in its scene, through the
                instances in order */
-  uint32_t first_id; /* 0, or in a draw over others the number of their triangles */
+  uint32_t first_id; /* 0, or in a draw over others the number of their triangles; the sum with this scene's is
+                        at most 2^30 */
   int unlit;         /* if not 0, colours are not multiplied by the light */
   int threads;       /* 1 ... 256 */
   int keep; /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */
@@ -183,11 +184,12 @@ edgewise_status edgewise_first_ids(const edgewise_scene* scene, size_t* first, s
 edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double low[3], const double high[3],
                                      edgewise_frame depth, int* is_visible);
 /* Perspective-correct barycentric coordinates of the second and third vertex, u and v, by pixel; 0 on
- * background. u, v and 1 - u - v are >= 0, with errors below 2^-24. `distance`, unless null, is along the
- * view direction, with a relative error below 2^-23; in streams and parallel projections, it is the depth in
- * 0 ... 1; infinite on background. Strides are in floats, from row to row. `ids` must show this scene alone,
- * drawn with these options and ids; the scissor does not count. If it shows several, pass a copy of its
- * depths in which the pixels of the others are EDGEWISE_DEPTH_CLEAR. */
+ * background. u, v and 1 - u - v are >= 0, with errors below 2^-25 + 2^-47. `distance`, unless null, is w in
+ * clip space, which usual projections make the distance along the view direction, with a relative error below
+ * 2^-24 + 2^-48; in streams and parallel projections, it is the depth in 0 ... 1; infinite on background.
+ * Strides are in floats, from row to row. `ids` must show this scene alone, drawn with these options and ids;
+ * the scissor does not count. If it shows several, pass a copy of its depths in which the pixels of the
+ * others are EDGEWISE_DEPTH_CLEAR. */
 edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride);

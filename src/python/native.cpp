@@ -38,6 +38,7 @@
 #include "edgewise/visible.h"
 #include "frontend/mesh_clusters.h"
 #include "frontend/submission.h"
+#include "frontend/view.h"
 #include "image/format.h"
 #include "lab/needs/needs.h"
 #include "lab/portable/portable.h"
@@ -204,13 +205,19 @@ FrontendOptions options_of(int width, int height, std::string_view cull, int thr
   return options;
 }
 
+// Text that may hold bytes of a file or of its name.
+py::str text_of(const std::string& bytes) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<Py_ssize_t>(bytes.size())));
+}
+
 // Calls f() for a file. What is wrong with the file becomes an OSError.
 template <typename F>
 auto with_file(F&& f) {
   try {
     return f();
   } catch (const std::runtime_error& error) {
-    PyErr_SetString(PyExc_OSError, error.what());
+    PyErr_SetObject(PyExc_OSError, text_of(error.what()).ptr());
   }
   throw py::error_already_set();
 }
@@ -447,7 +454,10 @@ template <typename T>
 py::tuple diff(const T& a, const T& b, const std::optional<std::variant<Path, Words>>& mask_from) {
   std::optional<Samples> mask;
   if (mask_from) mask = samples_of(*mask_from);
-  const MaskedDifference found = difference(a, b, mask ? &*mask : nullptr);
+  const MaskedDifference found = [&] {
+    const py::gil_scoped_release released;
+    return difference(a, b, mask ? &*mask : nullptr);
+  }();
   const Difference& d = found.outside;
   const py::object first =
       d.count == 0 ? py::object(py::none()) : py::object(py::make_tuple(d.first_x, d.first_y));
@@ -464,6 +474,7 @@ PYBIND11_MODULE(_native, m) {
   m.attr("DEPTH_HEAD") = contract::kDepthHead;
   m.attr("DEPTH_RANGE") = contract::kDepthRange;
   m.attr("DEPTH_CLEAR") = contract::kDepthClear;
+  m.attr("MAX_SIDE") = contract::kMaxImageSide;
   py::list names, reasons;
   for (const BackendInfo& backend : backends()) names.append(std::string(backend.name));
   for (int i = 0; i < lab::kUnstableKinds; ++i)
@@ -536,7 +547,9 @@ PYBIND11_MODULE(_native, m) {
   m.def("read_obj", [](const Path& path) {
     ObjReport report;
     auto read = with_file_only([&] { return drawn(read_obj(path, {}, &report)); });
-    return std::pair(std::move(read), report.warnings);
+    py::list warnings;
+    for (const std::string& warning : report.warnings) warnings.append(text_of(warning));
+    return std::pair(std::move(read), warnings);
   });
   m.def("read_tri", [](const Path& path) { return with_file_only([&] { return drawn(read_tri(path)); }); });
   m.def("stream", stream);
@@ -549,6 +562,7 @@ PYBIND11_MODULE(_native, m) {
              const Instance instance{.mesh = mesh, .matrix = matrix_of(rows, "matrix")};
              return self.use_scene([&](Scene& scene) {
                (void)mesh_of(scene, instance);
+               check(instance);
                scene.instances.push_back(instance);
                return scene.instances.size() - 1;
              });
@@ -558,6 +572,7 @@ PYBIND11_MODULE(_native, m) {
              const glm::dmat4 matrix = matrix_of(rows, "matrix");
              self.use_scene([&](Scene& scene) {
                check_index("instance", index, scene.instances.size());
+               check(Instance{.matrix = matrix});
                scene.instances[index].matrix = matrix;
              });
            })
@@ -571,11 +586,11 @@ PYBIND11_MODULE(_native, m) {
       .def("set_positions",
            [](Drawn& self, std::size_t mesh, const Floats& positions) {
              check(positions, "positions", {-1, 3});
+             auto moved = copied<glm::vec3>(positions);
              self.use_scene([&](Scene& scene) {
                check_index("mesh", mesh, scene.meshes.size());
-               check_count("vertices", static_cast<std::size_t>(positions.shape(0)),
-                           scene.meshes[mesh].positions.size());
-               scene.meshes[mesh].positions = copied<glm::vec3>(positions);
+               check_count("vertices", moved.size(), scene.meshes[mesh].positions.size());
+               scene.meshes[mesh].positions = std::move(moved);
                renew_clusters(scene.meshes[mesh]);
              });
            })

@@ -39,8 +39,9 @@ class CMake(build_ext):
         subprocess.run(["cmake", "--build", str(build), "--target", "edgewise_python", "--parallel", jobs], check=True)
 
 
+licence = (ROOT / "README.md").read_text(encoding="utf-8").split("\n## Licence\n\n")[-1]
 version = re.search(r"project\(edgewise VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 folder = build_folder()  # nothing is written into the source tree
-setup(version=version, packages=["edgewise"], package_data={"edgewise": ["py.typed"]},
+setup(version=version, license=licence, packages=["edgewise"], package_data={"edgewise": ["py.typed"]},
       ext_modules=[Extension("edgewise._native", [])], cmdclass={"build_ext": CMake},
       options={"build": {"build_base": folder}, "egg_info": {"egg_base": folder}})

@@ -194,6 +194,15 @@ def test_streams_are_drawn_as_their_size_says():
     ids = drawn.draw(ids=True).payload
     assert set(np.unique(ids)) <= {*range(40), edgewise.BACKGROUND_ID} and (ids < 40).any()
     assert drawn.size == SIZE
+    background = whole.depth == edgewise.DEPTH_CLEAR
+    assert (drawn.draw(background=7).payload[background] == 7).all() and background.any()
+    assert np.array_equal(drawn.draw(ids=True, first_id=5).payload[~background], ids[~background] + 5)
+    both = [drawn.draw(cull=side) for side in ("back", "front")]
+    assert all(not same(one, whole) for one in both) and same(drawn.draw(cull="back", onto=both[1]), whole)
+    assert same(drawn.draw(cull="front", onto=both[0], clear=True), drawn.draw(cull="front"))
+    depth = drawn.draw(scissor=SCISSOR, depth_only=True)
+    assert depth.payload is None and np.array_equal(part(depth.depth), part(whole.depth))
+    assert (depth.depth == edgewise.DEPTH_CLEAR).sum() > background.sum()
 
 
 def test_draws_release_the_gil():

@@ -90,7 +90,7 @@ READERS = {"obj": edgewise.Scene.read_obj, "tri": edgewise.Stream.read_tri, "png
 @pytest.mark.parametrize("extension", READERS)
 def test_a_file_that_cannot_be_read_is_an_os_error(tmp_path, extension):
     path = tmp_path / f"file.{extension}"
-    with pytest.raises(OSError, match=f"file.{extension}"):
+    with pytest.raises(FileNotFoundError, match=f"file.{extension}"):
         READERS[extension](path)
     path.write_bytes(b"?")
     with pytest.raises(OSError, match=f"file.{extension}"):
@@ -159,6 +159,25 @@ def questions(entries):
 
 def ours(found):
     return [(q.name, q.answer, q.proof, q.error, [(a.name, a.witness and tuple(a.witness)) for a in q.answers]) for q in found]
+
+
+def test_options_reach_the_library(tri):
+    drawn, sides = stream(), ("back", "front")
+    sets = [{}, {"bits": 4}, {"ulps": 4000}, {"guard_band": 30}, {"depth": "d16_unorm"}, *({"cull": side} for side in sides)]
+    found = [drawn.portable(**options).reasons.tobytes() for options in sets]
+    assert all(found.count(one) == 1 for one in found)
+    assert drawn.needs(displacement=0) != drawn.needs() != drawn.needs(displacement=10**6)
+    assert drawn.needs(cull="back") != drawn.needs(cull="front")
+    for side in sides:
+        with pytest.raises(ValueError, match="does not cover"):
+            drawn.barycentrics(drawn.draw(ids=True), cull=side)
+
+
+def test_names_in_files_need_not_be_utf8(tmp_path):
+    path = tmp_path / "latin.obj"
+    path.write_bytes(b"mtllib caf\xe9.mtl\n" + OBJ.encode())
+    with pytest.warns(UserWarning, match="caf"):
+        edgewise.Scene.read_obj(path)
 
 
 def test_needs_of_a_stream_are_the_programs(tri):

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <string>
@@ -320,6 +321,9 @@ TEST(CInterface, TellsErrorsAndChangesNothing) {
   fails(edgewise_add_instance(both.c, 1, nullptr, nullptr), "mesh 1 of 1");
   fails(edgewise_set_instance(both.c, 2, glm::value_ptr(kMatrix)), "instance 2 of 2");
   fails(edgewise_set_instance(both.c, 1, nullptr), "matrix is null");
+  const glm::dmat4 rows = glm::transpose(glm::translate(glm::dmat4(1.0), glm::dvec3(1.0)));
+  fails(edgewise_set_instance(both.c, 1, glm::value_ptr(rows)), "last row");
+  fails(edgewise_add_instance(both.c, 0, glm::value_ptr(rows), nullptr), "last row");
   fails(edgewise_remove_instance(both.c, 2), "instance 2 of 2");
   const float origin[3] = {};
   fails(edgewise_set_positions(both.c, 1, origin, 1, 0), "mesh 1 of 1");

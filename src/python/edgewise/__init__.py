@@ -12,8 +12,9 @@ Pictures are the same, bit for bit, on every machine and for every backend and n
 Matrices multiply column vectors, as in ``matrix @ column``. Arrays of input are converted to the type that is stated.
 A frame's planes are the caller's memory: they are neither converted nor copied, so another type is an error.
 
-Errors: ValueError for arguments, with the library's text; OSError for files that cannot be read or written; TypeError and
-MemoryError as usual. All work that takes long releases the GIL.
+Errors: ValueError for arguments, with the library's text; OSError for files that cannot be read or written; TypeError for
+arguments of another type, and for integers that 32 bits (negative ones: 32 bits without sign) do not hold; MemoryError. All
+work that takes long releases the GIL.
 """
 from __future__ import annotations
 
@@ -174,7 +175,7 @@ def depth01(depth: NDArray[np.uint32]) -> NDArray[np.float64]:
 
 
 def id_colours(ids: NDArray[np.uint32]) -> NDArray[np.uint32]:
-    """A colour per id, different for neighbours and for all ids below 2**24 - 1, as `edgewise render --payload id` writes.
+    """A colour per id, another for each id below 2**24 - 1, as `edgewise render --payload id` writes.
 
     BACKGROUND_ID is black.
     """
@@ -194,7 +195,7 @@ def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int6
 
 def read_image(path: _Path) -> NDArray[np.uint32]:
     """A PNG or PPM file as colours 0xFFBBGGRR, shape (height, width). Alpha is ignored, 16-bit samples are rounded to 8."""
-    return _native.read_image(path)
+    return _native.read_image(_readable(path))
 
 
 def write_image(path: _Path, colours: ArrayLike) -> None:
@@ -207,7 +208,7 @@ def write_image(path: _Path, colours: ArrayLike) -> None:
 
 def read_pfm(path: _Path) -> NDArray[np.float32]:
     """The depth map of a PFM file, shape (height, width)."""
-    return _native.read_pfm(path)
+    return _native.read_pfm(_readable(path))
 
 
 def write_pfm(path: _Path, depth: ArrayLike) -> None:
@@ -218,8 +219,8 @@ def write_pfm(path: _Path, depth: ArrayLike) -> None:
 def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | None = None) -> Difference:
     """Compares two pictures or two depth maps, as `edgewise diff` does.
 
-    a, b: files (.png, .ppm; .pfm), or arrays: colours as write_image() takes them, or depths of any float type. For frames
-    of ids, compare id_colours(). mask: a file, or an array of shape (height, width): pixels count as equal where it is not
+    a, b: files (.png, .ppm; .pfm), or arrays: colours as write_image() takes them, or depths of any float type, which are
+    compared as float32. Planes of frames are neither: compare id_colours(ids) and depth01(depth). mask: a file, or an array of shape (height, width): pixels count as equal where it is not
     black or 0, so Portable.reasons is one.
     """
     depths = [fspath(x).lower().endswith(".pfm") if _is_path(x) else np.asarray(x).dtype.kind == "f" for x in (a, b)]
@@ -228,8 +229,8 @@ def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | N
     if mask is not None and not _is_path(mask):
         mask = np.where(np.asarray(mask) != 0, np.uint32(0xFFFFFFFF), np.uint32(BLACK))
     if depths[0]:
-        return Difference(*_native.diff_depths(*(x if _is_path(x) else _array(x, np.float32) for x in (a, b)), mask))
-    return Difference(*_native.diff_pictures(*(x if _is_path(x) else _colours(x) for x in (a, b)), mask))
+        return Difference(*_native.diff_depths(*(_readable(x) if _is_path(x) else _array(x, np.float32) for x in (a, b)), mask))
+    return Difference(*_native.diff_pictures(*(_readable(x) if _is_path(x) else _colours(x) for x in (a, b)), mask))
 
 
 class _Drawable:
@@ -243,7 +244,7 @@ class _Drawable:
     def pixels_per_triangle(self, frame: Frame) -> NDArray[np.uint32]:
         """The number of pixels of each triangle in a frame of ids: shape (triangles,), or (views, triangles).
 
-        ValueError for an id that this lacks.
+        The frame shows this alone, drawn with a first_id of 0. ValueError for an id that this lacks.
         """
         return self._native.pixels_per_triangle(*frame)
 
@@ -251,6 +252,8 @@ class _Drawable:
               background: int | None, scissor: tuple[int, int, int, int] | None, onto: Frame | None, clear: bool,
               depth_only: bool) -> Frame:
         width, height = size
+        if not all(1 <= side <= _native.MAX_SIDE for side in size):
+            raise ValueError(f"a frame of {width} x {height} px has a side outside 1 to {_native.MAX_SIDE}")
         shape = (*((len(cameras),) if several else ()), height, width)
         if background is None:
             background = BACKGROUND_ID if ids else BLACK
@@ -262,6 +265,8 @@ class _Drawable:
             frame = Frame(*onto)
             if np.shape(frame.depth) != shape:
                 raise ValueError(f"onto has the shape {np.shape(frame.depth)}, not {shape}")
+            if not clear and np.max(frame.depth) > DEPTH_CLEAR:
+                raise ValueError("onto has a depth above DEPTH_CLEAR")
         self._native.draw(*_matrices(cameras), None if depth_only else frame.payload, frame.depth, ids, *options, background,
                           clear or onto is None, scissor)
         return frame
@@ -289,7 +294,7 @@ class Scene(_Drawable):
         Warns of what the reader skips, such as missing materials.
         """
         scene = cls.__new__(cls)
-        scene._native, notes = _native.read_obj(path)
+        scene._native, notes = _native.read_obj(_readable(path))
         for note in notes:
             warnings.warn(note, stacklevel=2)
         return scene
@@ -349,7 +354,8 @@ class Scene(_Drawable):
         background: the payload of pixels that no triangle covers; by default BACKGROUND_ID or BLACK.
         scissor: x, y, width, height, the only pixels to draw. The others keep what `onto` holds, or are background.
         onto: a frame that is drawn over, as if both draws were one, and returned; else the frame is new. Its planes must
-          not overlap, and their rows must be contiguous.
+          lie one after the other in memory, with contiguous rows, and unless they are cleared, no depth may exceed
+          DEPTH_CLEAR.
         clear: clears `onto` first, inside the scissor.
         depth_only: neither makes nor writes payloads.
         """
@@ -362,18 +368,20 @@ class Scene(_Drawable):
         """Perspective-correct coordinates of the triangle's point that each pixel of a frame of ids shows.
 
         Returns uv, shape (height, width, 2), and distance along the view direction, shape (height, width). A pixel's value
-        of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0; the error is below 2**-24, that
-        of the distance below 2**-23 of it. Background: 0 and infinity. In a parallel projection, the distance is the depth
-        in 0 ... 1. ValueError if the frame shows something else than this scene, seen by this camera, with this culling.
+        of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0; their error is below
+        2**-25 + 2**-47, that of the distance below 2**-24 + 2**-48 of it. The distance is w in clip space, so a projection
+        with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background: 0 and infinity.
+        ValueError if the frame shows something else than this scene, seen by this camera, with this culling.
         """
         return self._native.barycentrics(*_matrices([camera]), *frame, first_id, cull, threads)
 
     def pixels_per_instance(self, frame: Frame) -> NDArray[np.uint32]:
-        """The number of pixels of each instance in a frame of ids: shape (instances,), or (views, instances)."""
+        """The number of pixels of each instance in a frame as of pixels_per_triangle(): shape (instances,), or (views,
+        instances)."""
         return self._native.pixels_per_instance(*frame)
 
     def pixels_per_mesh(self, frame: Frame) -> NDArray[np.uint32]:
-        """The number of pixels of all instances of each mesh: shape (meshes,), or (views, meshes)."""
+        """The same of all instances of each mesh: shape (meshes,), or (views, meshes)."""
         return self._native.pixels_per_mesh(*frame)
 
     def visible(self, low: ArrayLike, high: ArrayLike, camera: Camera, frame: Frame) -> bool | NDArray[np.bool_]:
@@ -419,7 +427,7 @@ class Stream(_Drawable):
     def read_tri(cls, path: _Path) -> Stream:
         """Reads a .tri file, such as `edgewise capture` writes."""
         stream = cls.__new__(cls)
-        stream._native = _native.read_tri(path)
+        stream._native = _native.read_tri(_readable(path))
         return stream
 
     def write_tri(self, path: _Path) -> None:
@@ -435,8 +443,9 @@ class Stream(_Drawable):
              threads: int = 1, backend: str = "tiled", background: int | None = None,
              scissor: tuple[int, int, int, int] | None = None, onto: Frame | None = None, clear: bool = False,
              depth_only: bool = False) -> Frame:
-        """Draws the triangles, unlit. Another size than the stream's crops the picture. The others as Scene.draw()."""
-        return self._draw([], False, size or self.size, (first_id, cull, False, threads, backend), ids, background, scissor,
+        """Draws the triangles, unlit. size: by default the stream's; a smaller one crops the picture. The other arguments
+        are those of Scene.draw()."""
+        return self._draw([], False, self.size if size is None else size, (first_id, cull, False, threads, backend), ids, background, scissor,
                           onto, clear, depth_only)
 
     def barycentrics(self, frame: Frame, *, first_id: int = 0, cull: str = "none",
@@ -447,12 +456,12 @@ class Stream(_Drawable):
     def needs(self, size: tuple[int, int] | None = None, *, cull: str = "none", displacement: float | None = None,
               threads: int = 1) -> Needs:
         """As Scene.needs(), of one frame."""
-        return _needs(self._native.needs(*_matrices([]), *(size or self.size), cull, displacement, threads))
+        return _needs(self._native.needs(*_matrices([]), *(self.size if size is None else size), cull, displacement, threads))
 
     def portable(self, size: tuple[int, int] | None = None, *, cull: str = "none", bits: int = 8, ulps: int = 2,
                  guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> Portable:
         """As Scene.portable()."""
-        return _portable(self._native.portable(*_matrices([]), *(size or self.size), cull, bits, ulps, guard_band, depth,
+        return _portable(self._native.portable(*_matrices([]), *(self.size if size is None else size), cull, bits, ulps, guard_band, depth,
                                                threads))
 
 
@@ -470,6 +479,8 @@ def _array(values: ArrayLike, dtype: Any) -> NDArray[Any]:
 
 
 def _matrices(cameras: Sequence[Camera]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    if not all(isinstance(camera, Camera) for camera in cameras):
+        raise ValueError("a camera must be an edgewise.Camera")
     views, projections = (np.array([camera[i] for camera in cameras], np.float64) for i in (0, 1))
     return views, projections
 
@@ -489,13 +500,21 @@ def _colours(colours: ArrayLike) -> NDArray[np.uint32]:
     if array.dtype == np.uint8 and array.ndim and array.shape[-1] in (3, 4):
         r, g, b = (array[..., i].astype(np.uint32) for i in range(3))
         return r | g << np.uint32(8) | b << np.uint32(16) | np.uint32(BLACK)
-    if array.size and array.dtype.kind not in "iu":
+    if array.size and (array.dtype.kind not in "iu" or array.dtype == np.uint8):
         raise ValueError("colours must be integers 0xAABBGGRR, or R, G, B of type uint8")
+    if array.size and array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
+        raise ValueError("a colour is outside 0 to 0xFFFFFFFF")
     return _array(array, np.uint32)
 
 
 def _is_path(value: Any) -> bool:
     return isinstance(value, (str, PathLike))
+
+
+def _readable(path: _Path) -> _Path:
+    """Raises FileNotFoundError, PermissionError, ... as Python does."""
+    with open(path, "rb"):
+        return path
 
 
 def _needs(found: tuple) -> Needs:
