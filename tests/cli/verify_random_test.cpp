@@ -63,7 +63,7 @@ TEST(RandomCases, DependOnSeedAndNumberAlone) {
 }
 
 TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
-  std::map<std::string_view, std::uint64_t> cases, drawn;
+  std::map<std::string, std::uint64_t> cases, drawn;
   std::set<int> threads;
   bool wide = false, single = false, several_chunks = false;
   for (std::uint64_t number = 0; number < 1500; ++number) {
@@ -301,7 +301,7 @@ TEST(RandomFindings, IncludeAFrontEndThatIsWrongWithMatrices) {
     const bool wrong = scene != nullptr && scene->matrices && !all.empty();
     return wrong ? all.first(all.size() - 1) : all;
   };
-  finding_with(plan, "(matrices): front end (");
+  finding_with(plan, " with matrices): front end (");
 }
 
 TEST(RandomFindings, IncludeAWrongWholeFrame) {

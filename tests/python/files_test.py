@@ -163,7 +163,7 @@ def ours(found):
 
 def test_options_reach_the_library(tri):
     drawn, sides = stream(), ("back", "front")
-    sets = [{}, {"bits": 4}, {"ulps": 4000}, {"guard_band": 30}, {"depth": "d16_unorm"}, *({"cull": side} for side in sides)]
+    sets = [{}, {"bits": 4}, {"ulps": 1000}, {"guard_band": 5}, {"depth": "d16_unorm"}, *({"cull": side} for side in sides)]
     found = [drawn.portable(**options).reasons.tobytes() for options in sets]
     assert all(found.count(one) == 1 for one in found)
     assert drawn.needs(displacement=0) != drawn.needs() != drawn.needs(displacement=10**6)

@@ -56,11 +56,11 @@ def test_differences_are_counted_with_holes_and_how_far_they_are_from_an_edge():
 
 def test_faces_of_a_file_become_fans(tmp_path):
     path = tmp_path / "mesh.obj"
-    path.write_text("v 0 0 0\nv 1 0 0\nvn 0 0 1\nv 1 1 0\nv 0 1 0.5\nf 1/1/1 2 3//1 4\nf 4 3 1\n")
+    path.write_text("v 0 0 0\nv 1 0 0\nvn 0 0 1\nv 1 1 0\nv 0 1 0.5\nf 1/1/1 2 3//1 4\nf -1 -2 1\n")
     mesh = read_obj(path)
     assert mesh.triangles.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 0]]
     assert mesh.positions[3].tolist() == [0, 1, 0.5]
-    for text in ("", "v 0 0 0\nf 1 2 3\n", "v 0 0 0\nf 1 1 -1\n"):
+    for text in ("", "v 0 0 0\nf 1 2 3\n", "v 0 0 0\nf 1 1 -2\n"):
         path.write_text(text)
         with pytest.raises(BadInput):
             read_obj(path)
