@@ -18,9 +18,7 @@
 #include "edgewise/hash.h"
 #include "edgewise/scene.h"
 #include "edgewise/visible.h"
-#include "frontend/mesh_clusters.h"
-#include "frontend/submission.h"
-#include "frontend/view.h"
+#include "frontend/scene_edits.h"
 #include "raster/checks.h"
 
 using namespace edgewise;
@@ -160,31 +158,24 @@ void edgewise_free_scene(edgewise_scene* scene) {
 
 edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* mesh, size_t* index) {
   return status_of([&] {
-    auto& meshes = meshes_of(scene).meshes;
+    Scene& s = meshes_of(scene);
     const edgewise_mesh& m = given(mesh, "mesh");
     Mesh made{.positions = copied<glm::vec3>(m.positions, m.vertex_count, m.position_stride, "positions"),
               .triangles = copied<glm::uvec3>(m.triangles, m.triangle_count, m.triangle_stride, "triangles"),
               .colours = {}};
-    check_vertices(made);
-    if (m.colours != nullptr)
-      made.colours.assign(m.colours, m.colours + m.triangle_count);
-    else
-      made.colours.assign(m.triangle_count, rgb(200, 200, 200));
+    if (m.colours != nullptr) made.colours.assign(m.colours, m.colours + m.triangle_count);
     if (m.two_sided != 0) made.flags.assign(m.triangle_count, kTwoSided);
-    made.clusters = clusters_of(made);
-    meshes.push_back(std::move(made));
-    if (index != nullptr) *index = meshes.size() - 1;
+    const std::size_t added = add_mesh(s, std::move(made));
+    if (index != nullptr) *index = added;
   });
 }
 
 edgewise_status edgewise_set_positions(edgewise_scene* scene, size_t mesh, const float* positions,
                                        size_t vertex_count, size_t stride) {
   return status_of([&] {
-    auto& meshes = meshes_of(scene).meshes;
-    check_index("mesh", mesh, meshes.size());
-    check_count("vertices", vertex_count, meshes[mesh].positions.size());
-    copy_in(positions, vertex_count, stride, "positions", meshes[mesh].positions);
-    renew_clusters(meshes[mesh]);
+    set_positions(meshes_of(scene), mesh, vertex_count, [&](std::vector<glm::vec3>& moved) {
+      copy_in(positions, vertex_count, stride, "positions", moved);
+    });
   });
 }
 
@@ -192,31 +183,19 @@ edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const 
                                       size_t* index) {
   return status_of([&] {
     Scene& s = meshes_of(scene);
-    check_index("mesh", mesh, s.meshes.size());
     Instance instance{.mesh = mesh};
     if (matrix != nullptr) instance.matrix = matrix_of(matrix);
-    check(instance);
-    s.instances.push_back(instance);
-    if (index != nullptr) *index = s.instances.size() - 1;
+    const std::size_t added = add_instance(s, instance);
+    if (index != nullptr) *index = added;
   });
 }
 
 edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, const double matrix[16]) {
-  return status_of([&] {
-    auto& instances = meshes_of(scene).instances;
-    check_index("instance", instance, instances.size());
-    const glm::dmat4 moved = matrix_of(matrix);
-    check(Instance{.matrix = moved});
-    instances[instance].matrix = moved;
-  });
+  return status_of([&] { set_instance(meshes_of(scene), instance, matrix_of(matrix)); });
 }
 
 edgewise_status edgewise_remove_instance(edgewise_scene* scene, size_t instance) {
-  return status_of([&] {
-    auto& instances = meshes_of(scene).instances;
-    check_index("instance", instance, instances.size());
-    instances.erase(instances.begin() + static_cast<std::ptrdiff_t>(instance));
-  });
+  return status_of([&] { remove_instance(meshes_of(scene), instance); });
 }
 
 edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction[3]) {

@@ -144,8 +144,8 @@ typedef struct edgewise_options {
   int cull; /* EDGEWISE_CULL_NONE ... EDGEWISE_CULL_BOTH: which triangles to drop for their facing */
   int ids;  /* if not 0, payloads are ids: first_id plus a triangle's number in its scene, through the
                instances in order */
-  uint32_t first_id; /* 0, or in a draw over others the number of their triangles; the sum with this scene's is
-                        at most 2^30 */
+  uint32_t first_id; /* 0, or in a draw over others the number of their triangles; with this scene's at
+                        most 2^30 */
   int unlit;         /* if not 0, colours are not multiplied by the light */
   int threads;       /* 1 ... 256 */
   int keep; /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */

@@ -36,9 +36,8 @@
 #include "edgewise/scene.h"
 #include "edgewise/tri_file.h"
 #include "edgewise/visible.h"
-#include "frontend/mesh_clusters.h"
+#include "frontend/scene_edits.h"
 #include "frontend/submission.h"
-#include "frontend/view.h"
 #include "image/format.h"
 #include "lab/needs/needs.h"
 #include "lab/portable/portable.h"
@@ -56,8 +55,6 @@ using Array = py::array_t<T, py::array::c_style>;
 using Matrix = Array<double>;
 using Words = Array<std::uint32_t>;
 using Floats = Array<float>;
-
-constexpr std::uint32_t kLightGrey = rgb(200, 200, 200);  // of meshes and streams without colours
 
 // Throws unless an array has these sides; -1: any.
 void check(const py::array& array, const char* name, std::initializer_list<py::ssize_t> sides) {
@@ -329,21 +326,15 @@ Words pixels_per(Drawn& self, const std::optional<py::array>& payload, const py:
   return Words(frames.shape({static_cast<py::ssize_t>(kinds)}), all.data());
 }
 
-std::size_t add_mesh(Drawn& self, const Floats& positions, const Words& triangles,
-                     const std::optional<Words>& colours, bool two_sided) {
+std::size_t add_arrays(Drawn& self, const Floats& positions, const Words& triangles,
+                       const std::optional<Words>& colours, bool two_sided) {
   check(positions, "positions", {-1, 3}), check(triangles, "triangles", {-1, 3});
   if (colours) check(*colours, "colours", {triangles.shape(0)});
   Mesh mesh{
       .positions = copied<glm::vec3>(positions), .triangles = copied<glm::uvec3>(triangles), .colours = {}};
-  const std::size_t count = mesh.triangles.size();
-  mesh.colours = colours ? copied<std::uint32_t>(*colours) : std::vector<std::uint32_t>(count, kLightGrey);
-  if (two_sided) mesh.flags.assign(count, kTwoSided);
-  return self.use_scene([&](Scene& scene) {
-    check_vertices(mesh);
-    mesh.clusters = clusters_of(mesh);
-    scene.meshes.push_back(std::move(mesh));
-    return scene.meshes.size() - 1;
-  });
+  if (colours) mesh.colours = copied<std::uint32_t>(*colours);
+  if (two_sided) mesh.flags.assign(mesh.triangles.size(), kTwoSided);
+  return self.use_scene([&](Scene& scene) { return add_mesh(scene, std::move(mesh)); });
 }
 
 std::unique_ptr<Drawn> stream(const Floats& vertices, int width, int height,
@@ -556,42 +547,27 @@ PYBIND11_MODULE(_native, m) {
 
   py::class_<Drawn>(m, "Drawable")
       .def(py::init([] { return drawn(Scene{}); }))
-      .def("add_mesh", add_mesh)
+      .def("add_mesh", add_arrays)
       .def("add_instance",
            [](Drawn& self, std::size_t mesh, const Matrix& rows) {
              const Instance instance{.mesh = mesh, .matrix = matrix_of(rows, "matrix")};
-             return self.use_scene([&](Scene& scene) {
-               (void)mesh_of(scene, instance);
-               check(instance);
-               scene.instances.push_back(instance);
-               return scene.instances.size() - 1;
-             });
+             return self.use_scene([&](Scene& scene) { return add_instance(scene, instance); });
            })
       .def("set_instance",
            [](Drawn& self, std::size_t index, const Matrix& rows) {
              const glm::dmat4 matrix = matrix_of(rows, "matrix");
-             self.use_scene([&](Scene& scene) {
-               check_index("instance", index, scene.instances.size());
-               check(Instance{.matrix = matrix});
-               scene.instances[index].matrix = matrix;
-             });
+             self.use_scene([&](Scene& scene) { set_instance(scene, index, matrix); });
            })
       .def("remove_instance",
            [](Drawn& self, std::size_t index) {
-             self.use_scene([&](Scene& scene) {
-               check_index("instance", index, scene.instances.size());
-               scene.instances.erase(scene.instances.begin() + static_cast<std::ptrdiff_t>(index));
-             });
+             self.use_scene([&](Scene& scene) { remove_instance(scene, index); });
            })
       .def("set_positions",
            [](Drawn& self, std::size_t mesh, const Floats& positions) {
              check(positions, "positions", {-1, 3});
              auto moved = copied<glm::vec3>(positions);
              self.use_scene([&](Scene& scene) {
-               check_index("mesh", mesh, scene.meshes.size());
-               check_count("vertices", moved.size(), scene.meshes[mesh].positions.size());
-               scene.meshes[mesh].positions = std::move(moved);
-               renew_clusters(scene.meshes[mesh]);
+               set_positions(scene, mesh, moved.size(), [&](auto& of_mesh) { of_mesh.swap(moved); });
              });
            })
       .def("set_light",

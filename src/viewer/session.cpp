@@ -26,8 +26,8 @@ constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
 // During movement, errors are counted only if the frame is expected to stay within kBudget_ms. The expected
 // judging time decays by kDecay per frame, so that counting is retried every few seconds.
 constexpr double kBudget_ms = 10.0, kDecay = 0.995;
-// Vertices of a scene, or triangles of a stream. With more, counting errors takes seconds, so the user must
-// ask for it.
+// Vertices of a scene, or triangles of a stream. With more, counting errors takes seconds, so it starts on
+// request.
 constexpr std::size_t kMostJudged = 100'000;
 
 constexpr bool changes_picture(Command command) {

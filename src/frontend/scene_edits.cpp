@@ -1,0 +1,35 @@
+#include "frontend/scene_edits.h"
+
+#include <utility>
+
+#include "frontend/view.h"
+
+namespace edgewise {
+
+std::size_t add_mesh(Scene& scene, Mesh mesh) {
+  check_vertices(mesh);
+  if (mesh.colours.empty()) mesh.colours.assign(mesh.triangles.size(), kLightGrey);
+  mesh.clusters = clusters_of(mesh);
+  scene.meshes.push_back(std::move(mesh));
+  return scene.meshes.size() - 1;
+}
+
+std::size_t add_instance(Scene& scene, const Instance& instance) {
+  check_index("mesh", instance.mesh, scene.meshes.size());
+  check(instance);
+  scene.instances.push_back(instance);
+  return scene.instances.size() - 1;
+}
+
+void set_instance(Scene& scene, std::size_t instance, const glm::dmat4& matrix) {
+  check_index("instance", instance, scene.instances.size());
+  check(Instance{.matrix = matrix});
+  scene.instances[instance].matrix = matrix;
+}
+
+void remove_instance(Scene& scene, std::size_t instance) {
+  check_index("instance", instance, scene.instances.size());
+  scene.instances.erase(scene.instances.begin() + static_cast<std::ptrdiff_t>(instance));
+}
+
+}  // namespace edgewise
