@@ -81,7 +81,7 @@ HWY_INLINE V set(std::uint32_t v) {
   return hn::Set(D{}, static_cast<std::int32_t>(v));
 }
 
-// Fills the spans for which for_each(span) calls span(y, begin, end).
+// Fills the spans for which for_each(span) calls span(y, begin, end). Those with begin >= end are empty.
 template <typename ForEach>
 HWY_INLINE void fill_spans(const BandTask& task, const BandDepth& z, std::uint32_t payload,
                            ForEach&& for_each) {
@@ -99,22 +99,27 @@ HWY_INLINE void fill_spans(const BandTask& task, const BandDepth& z, std::uint32
   const V z_step = set(static_cast<std::uint32_t>(kLanes) * z.zx);
   const auto every = hn::Eq(lane, lane);
   for_each([&](int y, int begin, int end) {
+    if (begin >= end) return;
     const FrameRow row(task.frame, y);
-    for (int x = begin & -kLanes; x < end;) {
-      const int cell_end = std::min(end, (x | (kDepthCell - 1)) + 1);
-      V z_here =
-          hn::Add(set(z.in_cell(x, y) + static_cast<std::uint32_t>(x % kDepthCell) * z.zx), z_in_vector);
-      for (; x < cell_end; x += kLanes, z_here = hn::Add(z_here, z_step)) {
-        if (begin <= x && x + kLanes <= end) {
-          write(row.depth + x, row.payload + x, every, z_here, colour);
-          continue;
-        }
-        const int at = vector_at(x, task.area.x1);
-        const auto in_span = between(std::max(begin, x), hn::Add(lane, hn::Set(D{}, at)), end);
-        const V z_at = hn::Add(z_here, set(static_cast<std::uint32_t>(at - x) * z.zx));
-        write(row.depth + at, row.payload + at, in_span, z_at, colour);
-      }
+    // The depths of the vector at `at`, which may lie left of x, by the plane of x's cell.
+    const auto z_in = [&](int x, int at) {
+      const auto from_cell = static_cast<std::uint32_t>(at - (x & -kDepthCell));
+      return hn::Add(set(z.in_cell(x, y) + from_cell * z.zx), z_in_vector);
+    };
+    const auto write_masked = [&](int x) {
+      const int at = vector_at(x, task.area.x1);
+      const auto in_span = between(std::max(begin, x), hn::Add(lane, hn::Set(D{}, at)), end);
+      write(row.depth + at, row.payload + at, in_span, z_in(x, at), colour);
+    };
+    // Only the first and the last vector need a mask.
+    const int first = begin & -kLanes, last = (end - 1) & -kLanes;
+    write_masked(first);
+    for (int x = first + kLanes; x < last;) {
+      const int cell_end = std::min(last, (x | (kDepthCell - 1)) + 1);
+      for (V z_here = z_in(x, x); x < cell_end; x += kLanes, z_here = hn::Add(z_here, z_step))
+        write(row.depth + x, row.payload + x, every, z_here, colour);
     }
+    if (first < last) write_masked(last);
   });
 #endif
 }
