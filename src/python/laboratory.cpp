@@ -1,0 +1,97 @@
+// What the laboratory says of a drawable.
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "frontend/submission.h"
+#include "lab/needs/needs.h"
+#include "lab/portable/portable.h"
+#include "lab/view_space.h"
+#include "python/drawn.h"
+
+namespace edgewise::python {
+
+namespace {
+
+py::object as_tuple(const std::optional<lab::Witness>& w) {
+  if (!w) return py::none();
+  return py::make_tuple(w->frame, w->x_px, w->y_px, py::tuple(py::cast(w->right)),
+                        py::tuple(py::cast(w->drawn)));
+}
+
+py::list as_list(const std::vector<lab::Question>& questions) {
+  py::list all;
+  for (const lab::Question& q : questions) {
+    py::list answers;
+    for (const lab::Answer& a : q.answers)
+      answers.append(py::make_tuple(a.name, as_tuple(a.witness), a.wrong_px));
+    const auto text = [](bool there, const std::string& s) -> py::object {
+      return there ? py::object(py::str(s)) : py::none();
+    };
+    const lab::Answer* const needed = q.needed();
+    all.append(py::make_tuple(q.name, text(needed != nullptr, needed != nullptr ? needed->name : ""),
+                              text(!q.proof.empty(), q.proof), q.trials, q.trial, q.error, answers));
+  }
+  return all;
+}
+
+py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int width, int height,
+                const std::string& cull, std::optional<double> displacement, int threads) {
+  if (displacement && !(*displacement >= 0.0 && *displacement <= 1e6))
+    throw std::invalid_argument("displacement must be 0 to 10^6");
+  const auto cameras = cameras_of(views, projections);
+  const FrontendOptions options = options_of(width, height, cull, threads);
+  check_threads(threads);
+  lab::Needs found({.displacement = displacement, .threads = threads});
+  lab::LeastPrecise least;
+  self.for_each_view(cameras, std::max<std::size_t>(cameras.size(), 1),
+                     [&](const Drawable& drawable, std::size_t) {
+                       found.add(lab::with_camera(drawable, {width, height}), options);
+                     });
+  {
+    const py::gil_scoped_release released;
+    least = found.least_precise();
+  }
+  py::dict reach;
+  const bool is_stream = cameras.empty();
+  for (int i = 0; !is_stream && i < lab::kViewPlanes; ++i) {
+    const auto plane = static_cast<lab::ViewPlane>(i);
+    const lab::Reach& r = found.ranges().reach(plane);
+    reach[py::str(std::string(name_of(plane)))] = py::make_tuple(r.beyond, r.crossing);
+  }
+  std::vector<int> bits;
+  for (int i = 0; i <= lab::kMostSubpixelBits; ++i) bits.push_back(found.ranges().edge_value_bits(i));
+  return py::make_tuple(found.frames(), as_list(least.stages), least.orders, least.others,
+                        is_stream ? 0 : found.unlike_scene(), as_list(found.stages()), as_list(found.edges()),
+                        reach, bits);
+}
+
+Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& projections, int width,
+                             int height, const std::string& cull, int bits, int ulps, int guard_band,
+                             const std::string& depth, int threads) {
+  const lab::Conformance model{bits, ulps, guard_band, lab::find_depth_format(depth)};
+  const auto cameras = cameras_of(views, projections);
+  const FrontendOptions options = options_of(width, height, cull, threads);
+  lab::PortablePixels found{};
+  self.for_each_view(cameras, 1, [&](const Drawable& drawable, std::size_t) {
+    const Drawable seen = lab::with_camera(drawable, {width, height});
+    found = lab::portable_pixels(lab::portable_triangles(seen, options), width, height, model, threads);
+  });
+  static_assert(sizeof(lab::Unstable) == 1);
+  return Array<std::uint8_t>({height, width}, reinterpret_cast<const std::uint8_t*>(found.reasons.data()));
+}
+
+}  // namespace
+
+void define_laboratory(py::module_& m, py::class_<Drawn>& drawable) {
+  py::list reasons;
+  for (int i = 0; i < lab::kUnstableKinds; ++i)
+    reasons.append(std::string(name_of(static_cast<lab::Unstable>(i))));
+  m.attr("UNSTABLE") = reasons;
+  drawable.def("needs", needs).def("portable", portable);
+}
+
+}  // namespace edgewise::python
