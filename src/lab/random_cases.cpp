@@ -239,7 +239,7 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
   c.number = number;
   std::tie(c.width, c.height) = random_size(random);
   c.background = static_cast<std::uint32_t>(random.next() >> 32);
-  constexpr std::array kThreads{2, 2, 2, 3, 3, 4, 5, 8};
+  constexpr std::array kThreads{2, 2, 2, 3, 4, 5, 8, 16};
   c.threads = kThreads[random.below(kThreads.size())];
   c.large_oracle_budget = random.below(16) == 0;
   c.draws_seed = random.next();
