@@ -22,7 +22,7 @@ def random_reads(bench):
 
 def fastest(bench, scene):
     """The fastest backend on the most threads, with its speed-up over the next; several if the order is not settled."""
-    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))]
+    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{bench.threads[-1]}"))]
     if len(rows) < 2:
         return "–"
     first, *others = sorted(rows, key=lambda row: row.median_ms)
@@ -41,12 +41,12 @@ def scene_facts(bench, scene):
 
 
 def scene_table(bench):
-    """Header and lines: a line per scene, with a backend's ms on 1 and on 2 threads in one cell."""
+    """Header and lines: a line per scene, with a backend's ms on each number of threads in one cell."""
     modelled = list(dict.fromkeys(row.backend for row in bench.rows.values() if estimates_ms(bench, row)))
     header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), *(f"{b} / estimate" for b in modelled), "fastest"]
     lines = []
     for scene in bench.scenes:
-        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in THREADS) for b in bench.backends]
+        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in bench.threads) for b in bench.backends]
         lines.append([scene, *scene_facts(bench, scene), *times, *(over_estimate(bench, b, scene) for b in modelled), fastest(bench, scene)])
     return header, lines
 

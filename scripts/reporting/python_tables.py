@@ -73,4 +73,4 @@ def python_brief(found):
     source, _, pictures = found
     told = [f"against {name} {outcome(by_order([(rows[OURS, 2, 'draw'], rows[peer, 2, 'draw']) for _, rows in pictures]))}"
             for peer, name in PEERS.items()]
-    return f"Ids and depths by `draw` on 2 threads: {'; '.join(told)} ({source}; [more](results/README.md#python-packages))."
+    return f"Ids and depths by `draw` on 2 threads: {'; '.join(told)} (a scene is a mesh at one size; both on llvmpipe; {source}; [more](results/README.md#python-packages))."

@@ -187,9 +187,9 @@ edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double l
  * background. u, v and 1 - u - v are >= 0, with errors below 2^-25 + 2^-47. `distance`, unless null, is w in
  * clip space, which usual projections make the distance along the view direction, with a relative error below
  * 2^-24 + 2^-48; in streams and parallel projections, it is the depth in 0 ... 1; infinite on background.
- * Strides are in floats, from row to row. `ids` must show this scene alone, drawn with these options and ids;
- * the scissor does not count. If it shows several, pass a copy of its depths in which the pixels of the
- * others are EDGEWISE_DEPTH_CLEAR. */
+ * Strides are in floats, from row to row. `ids` must show this scene alone, drawn with these options, which
+ * must not be null and must ask for ids; the scissor does not count. If it shows several, pass a copy of its
+ * depths in which the pixels of the others are EDGEWISE_DEPTH_CLEAR. */
 edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride);

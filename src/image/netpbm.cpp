@@ -29,8 +29,8 @@ Size checked_size(const std::filesystem::path& path, std::uint64_t width, std::u
 }
 
 void check_pixels(const std::filesystem::path& path, int width, int height, std::size_t pixels) {
-  if (width < 1 || width > contract::kMaxImageSide || height < 1 || height > contract::kMaxImageSide ||
-      Size{width, height}.pixels() != pixels)
+  const auto side = [](int px) { return static_cast<std::uint64_t>(std::max(px, 0)); };
+  if (checked_size(path, side(width), side(height)).pixels() != pixels)
     throw file_error(path, "cannot be written: " + std::to_string(pixels) +
                                " pixels don't make an image of " + std::to_string(width) + "x" +
                                std::to_string(height));

@@ -28,14 +28,15 @@ using Matrix = Array<double>;
 using Words = Array<std::uint32_t>;
 using Floats = Array<float>;
 
-// Throws unless an array has these sides; -1: any.
+// Throws unless an array has these sides; -1: any, written as a letter.
 inline void check(const py::array& array, const char* name, std::initializer_list<py::ssize_t> sides) {
   bool same = array.ndim() == static_cast<py::ssize_t>(sides.size());
   std::string wanted;
   py::ssize_t i = 0;
   for (const py::ssize_t side : sides) {
     same = same && (side < 0 || array.shape(i) == side);
-    wanted += (i++ == 0 ? "" : ", ") + (side < 0 ? std::string("n") : std::to_string(side));
+    wanted += (i == 0 ? "" : ", ") + (side < 0 ? std::string(1, "nmk"[i]) : std::to_string(side));
+    ++i;
   }
   if (!same) throw std::invalid_argument(std::string(name) + " must have the shape (" + wanted + ")");
 }

@@ -18,7 +18,10 @@ Samples samples_of(const std::variant<Path, Words>& from) {
   const Words& colours = std::get<Words>(from);
   check(colours, "a picture", {-1, -1});
   Samples samples{side(colours.shape(1)), side(colours.shape(0)), false, {}};
-  for (const std::uint32_t c : copied<std::uint32_t>(colours)) {
+  const auto pixels = copied<std::uint32_t>(colours);
+  const py::gil_scoped_release released;
+  samples.pixels.reserve(pixels.size());
+  for (const std::uint32_t c : pixels) {
     const auto sample = [&](int shift) { return static_cast<std::uint16_t>((c >> shift & 255) * 257); };
     samples.pixels.push_back({sample(0), sample(8), sample(16)});
   }

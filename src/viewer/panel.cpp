@@ -196,6 +196,7 @@ class Panel::Contents {
     }
     const Side& side = session_->side(state().active);
     if (!side.judgement) return;
+    if (side.judgement->double_hits) text(kPlain, "marked, also pixels hit twice but right:");
     constexpr std::pair<lab::Mark, const char*> kKinds[] = {{lab::Mark::gap, "nothing drawn"},
                                                             {lab::Mark::twice, "twice, or wrong triangle"},
                                                             {lab::Mark::extra, "outside all triangles"}};

@@ -49,8 +49,8 @@ void Magnifier::lay_out(const Session& session) {
     show_grid(zoomed_[i], std::floor(std::min(room / kAcross, 0.8f * em())));
   }
   text(kStrong, "pixel {}, {}; {}{}", focus.x, focus.y, prefix(session, side_),
-       triangles_.size() == 1 ? "1 triangle reaches it"
-                              : fmt::format("{} triangles reach it", triangles_.size()));
+       triangles_.size() == 1 ? "1 triangle touches it"
+                              : fmt::format("{} triangles touch it", triangles_.size()));
   if (triangles_.empty()) return;
   text(kFaint, "number, depth, edge values in 1/65536 px²");
   const std::size_t listed = std::min(triangles_.size(), kMostTriangles);

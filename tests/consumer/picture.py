@@ -2,7 +2,7 @@
 import edgewise
 
 scene = edgewise.Scene.read_obj("mesh.obj")
-camera = scene.camera(640 / 360)  # sees the whole mesh; or two matrices of yours
+camera = scene.camera(640 / 360)  # sees the whole mesh; or edgewise.Camera(view, projection)
 picture = scene.draw(camera, (640, 360), threads=2)
 edgewise.write_image("mesh.png", picture.payload)
 ids = scene.draw(camera, (640, 360), ids=True, threads=2)

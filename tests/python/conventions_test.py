@@ -116,6 +116,7 @@ def test_reversed_and_y_down_clip_spaces_are_converted():
 
 
 def test_a_view_needs_a_direction():
-    for eye, target, up in (((1, 1, 1), (1, 1, 1), (0, 1, 0)), ((0, 2, 0), (0, 0, 0), (0, 1, 0)), ((np.nan, 0, 0), (1, 1, 1), (0, 1, 0))):
+    for eye, target, up in (((1, 1, 1), (1, 1, 1), (0, 1, 0)), ((0, 2, 0), (0, 0, 0), (0, 1, 0)), ((np.nan, 0, 0), (1, 1, 1), (0, 1, 0)),
+                            ((0.1, 0.2, 0.3), (0, 0, 0), (0.3, 0.6, 0.9))):
         with pytest.raises(ValueError, match="direction"):
             edgewise.look_at(eye, target, up)

@@ -134,6 +134,9 @@ def test_diff_says_what_the_program_says(tmp_path):
         assert (said.get("masked", 0), said.get("differing_in_mask", 0)) == (of_arrays.masked, of_arrays.differing_in_mask)
     assert edgewise.diff(a, b).first == (5, 7) and edgewise.diff(a, b).differing == 2
     assert edgewise.diff(a, b, mask)[:1] == (1,) and edgewise.diff(a, b, mask).masked == WIDTH
+    colours = edgewise.read_image(paths[2])
+    for picture in (colours, colours[..., None].view(np.uint8), colours[..., None].view(np.uint8)[..., :3]):
+        assert edgewise.diff(a, b, picture)[:-1] == edgewise.diff(a, b, mask)[:-1]
     assert edgewise.diff(a, a).first is None and edgewise.diff(a, a).differing == 0
 
 

@@ -124,8 +124,7 @@ TEST(Visible, RejectsFramesThatCannotBeRead) {
   EXPECT_EQ(message([](ConstFrameView&) {}), "");
   EXPECT_EQ(message([](ConstFrameView& v) { v.depth = nullptr; }),
             "frame of 4 x 4 px, stride 16, cannot be read");
-  EXPECT_EQ(message([](ConstFrameView& v) { v.payload = nullptr; }),
-            "frame of 4 x 4 px, stride 16, cannot be read");
+  EXPECT_EQ(message([](ConstFrameView& v) { v.payload = nullptr; }), "the frame has no payload");
   EXPECT_EQ(message([](ConstFrameView& v) { v.stride = 3; }), "frame of 4 x 4 px, stride 3, cannot be read");
   EXPECT_EQ(message([](ConstFrameView& v) { v.width = 0; }), "frame of 0 x 4 px, stride 16, cannot be read");
   EXPECT_EQ(message([](ConstFrameView& v) { v.height = 16385; }),

@@ -202,6 +202,7 @@ TEST(Panel, CountsErrorsByKindBesideTheirColours) {
   const Side& side = shown.session().side(0);
   ASSERT_GT(side.judgement->wrong, 100u);
   EXPECT_TRUE(shown.says(errors_of(*side.judgement)));
+  EXPECT_TRUE(shown.says("also pixels hit twice but right"));
   std::uint64_t all = 0;
   for (const auto& [mark, what] :
        {std::pair(lab::Mark::gap, " nothing drawn"), std::pair(lab::Mark::twice, " twice, or wrong triangle"),
@@ -223,7 +224,7 @@ TEST(Panel, CountsErrorsByKindBesideTheirColours) {
 
 TEST(Panel, ListsTheTrianglesOfTheMagnifiedPixel) {
   Shown shown(session_of("cubes"));
-  EXPECT_FALSE(shown.says("triangles reach it"));
+  EXPECT_FALSE(shown.says("triangles touch it"));
   shown.type("g");
   const tools::Size side = shown.session().side_size();
   shown.point({side.width / 2, side.height / 2}, false);
@@ -232,7 +233,7 @@ TEST(Panel, ListsTheTrianglesOfTheMagnifiedPixel) {
   ASSERT_FALSE(found.empty());
   const std::string text = shown.text();
   ASSERT_GT(found.size(), 1u);
-  EXPECT_NE(text.find(std::to_string(found.size()) + " triangles reach it"), std::string::npos);
+  EXPECT_NE(text.find(std::to_string(found.size()) + " triangles touch it"), std::string::npos);
   const auto& edges = found.front().edges;
   EXPECT_NE(text.find(fmt::format(" {} {} {}\n", edges[0], edges[1], edges[2])), std::string::npos);
 }

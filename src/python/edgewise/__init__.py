@@ -12,9 +12,9 @@ Pictures are the same, bit for bit, on every machine and for every backend and n
 Matrices multiply column vectors, as in ``matrix @ column``. Arrays of input are converted to the type that is stated.
 A frame's planes are the caller's memory: they are neither converted nor copied, so another type is an error.
 
-Errors: ValueError for arguments, with the library's text; OSError for files that cannot be read or written; TypeError for
-arguments of another type, and for integers that 32 bits (negative ones: 32 bits without sign) do not hold; MemoryError. All
-work that takes long releases the GIL.
+Errors: ValueError for arguments, with the library's text; OSError for files that cannot be read or written, among them
+unknown extensions; TypeError for arguments of another type, and for integers of over 32 bits, or below 0 where only those
+from 0 on count; MemoryError. All work that takes long releases the GIL.
 """
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Camera(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """What a draw wrote: shape (height, width), or (views, height, width) for several cameras.
+    """What a draw wrote: shape (height, width), or (views, height, width) for several cameras. Screen: as this module says.
 
     payload: uint32, ids or colours 0xAABBGGRR; None if only depth was drawn. An id is the number of a triangle, counted
     through the instances in order. Colours in memory are R, G, B, A: payload[..., None].view(np.uint8).
@@ -122,14 +122,15 @@ class Needs(NamedTuple):
 def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 1.0, 0.0)) -> NDArray[np.float64]:
     """The view, shape (4, 4), of a camera at `eye` that looks at `target`: x right, y up, and -z forward.
 
-    All have the shape (3,). ValueError if the direction is 0 or parallel to `up`.
+    All have the shape (3,). ValueError if the direction is 0, or parallel to `up` but for rounding.
     """
     eye = np.asarray(eye, np.float64)
     back = eye - np.asarray(target, np.float64)
     right = np.cross(np.asarray(up, np.float64), back)
     axes = np.array([right, np.cross(back, right), back])
     lengths = np.linalg.norm(axes, axis=1, keepdims=True)
-    if axes.shape != (3, 3) or not (np.isfinite(lengths) & (lengths > 0)).all():
+    if axes.shape != (3, 3) or not (np.isfinite(lengths) & (lengths > 0)).all() or \
+            lengths[0] < 1e-12 * lengths[2] * np.linalg.norm(up):
         raise ValueError("a view needs a direction, which must not be parallel to up")
     view = np.eye(4)
     view[:3, :3] = axes / lengths
@@ -140,13 +141,17 @@ def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 1.0, 0.0)) 
 def perspective(fov_y: float, aspect: float, near: float, far: float = math.inf) -> NDArray[np.float64]:
     """The projection, shape (4, 4), from a view space with x right, y up, and -z forward.
 
-    fov_y: vertical field of view in radians. aspect: width / height. near, far: distances along the view direction.
+    fov_y: vertical field of view in radians. aspect: width / height. near, far: distances along the view direction, with
+    0 < near < far. ValueError for others.
     """
     return _native.perspective(fov_y, aspect, near, far)
 
 
 def orthographic(left: float, right: float, bottom: float, top: float, near: float, far: float) -> NDArray[np.float64]:
-    """The projection without perspective, from the same view space as perspective()'s."""
+    """The projection without perspective, shape (4, 4), from the same view space as perspective()'s.
+
+    All are coordinates or distances in view space. ValueError if two opposite ones are equal.
+    """
     return _native.orthographic(left, right, bottom, top, near, far)
 
 
@@ -170,7 +175,7 @@ def projection_from(projection: ArrayLike, *, z_from_minus_w: bool = False, y_do
 
 
 def depth01(depth: NDArray[np.uint32]) -> NDArray[np.float64]:
-    """Depths of a frame from 0, at the near plane, to 1, at the far plane and on background."""
+    """Depths of a frame, of any shape, from 0, at the near plane, to 1, at the far plane and on background."""
     return np.clip((np.asarray(depth).astype(np.float64) - _native.DEPTH_HEAD) / _native.DEPTH_RANGE, 0.0, 1.0)
 
 
@@ -188,7 +193,10 @@ def pixel_hash(frame: Frame) -> int:
 
 
 def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
-    """What frames of ids show: flat, offsets. View i sees the ids flat[offsets[i]:offsets[i + 1]], in ascending order."""
+    """What frames of ids show: flat, offsets. View i sees the ids flat[offsets[i]:offsets[i + 1]], in ascending order.
+
+    One frame is view 0. offsets: shape (views + 1,).
+    """
     views = _native.visible_triangles(*frame)
     return np.concatenate([*views, np.empty(0, np.uint32)]), np.cumsum([0, *map(len, views)])
 
@@ -220,14 +228,14 @@ def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | N
     """Compares two pictures or two depth maps, as `edgewise diff` does.
 
     a, b: files (.png, .ppm; .pfm), or arrays: colours as write_image() takes them, or depths of any float type, which are
-    compared as float32. Planes of frames are neither: compare id_colours(ids) and depth01(depth). mask: a file, or an array of shape (height, width): pixels count as equal where it is not
-    black or 0, so Portable.reasons is one.
+    compared as float32. Planes of frames are neither: compare id_colours(ids) and depth01(depth). mask: a file, or an array of
+    shape (height, width), or a picture. Pixels count as equal where it is not black or 0, so Portable.reasons is one.
     """
     depths = [fspath(x).lower().endswith(".pfm") if _is_path(x) else np.asarray(x).dtype.kind == "f" for x in (a, b)]
     if depths[0] != depths[1]:
         raise ValueError("a picture cannot be compared with a depth map")
     if mask is not None and not _is_path(mask):
-        mask = np.where(np.asarray(mask) != 0, np.uint32(0xFFFFFFFF), np.uint32(BLACK))
+        mask = np.where(_masked(mask), np.uint32(0xFFFFFFFF), np.uint32(BLACK))
     if depths[0]:
         return Difference(*_native.diff_depths(*(_readable(x) if _is_path(x) else _array(x, np.float32) for x in (a, b)), mask))
     return Difference(*_native.diff_pictures(*(_readable(x) if _is_path(x) else _colours(x) for x in (a, b)), mask))
@@ -273,7 +281,7 @@ class _Drawable:
 
 
 class Scene(_Drawable):
-    """Meshes, their instances, and a light.
+    """Meshes, their instances, and a light. Clip space and the fronts of triangles are as this module says.
 
     Several threads may use a scene; its draws take turns. Scenes of their own let them draw at the same time.
     """
@@ -315,7 +323,7 @@ class Scene(_Drawable):
         return self._native.add_instance(mesh, _array(matrix, np.float64))
 
     def set_instance(self, instance: int, matrix: ArrayLike) -> None:
-        """Moves an instance."""
+        """Moves an instance. matrix: affine, shape (4, 4), from the mesh to the world."""
         self._native.set_instance(instance, _array(matrix, np.float64))
 
     def remove_instance(self, instance: int) -> None:
@@ -347,15 +355,15 @@ class Scene(_Drawable):
         size: width, height in pixels, at most 16384.
         ids: payloads are ids, not colours.
         first_id: the id of the first triangle; in a draw over others, the number of their triangles.
-        cull: none, back, front or both.
+        cull: none, back, front or both; the C++ library's default is back.
         shade: multiplies colours by the light.
         threads: 1 to 256.
         backend: one of BACKENDS, which draw the same picture.
         background: the payload of pixels that no triangle covers; by default BACKGROUND_ID or BLACK.
         scissor: x, y, width, height, the only pixels to draw. The others keep what `onto` holds, or are background.
-        onto: a frame that is drawn over, as if both draws were one, and returned; else the frame is new. Its planes must
-          lie one after the other in memory, with contiguous rows, and unless they are cleared, no depth may exceed
-          DEPTH_CLEAR.
+        onto: a frame that is drawn over, as if both draws were one, and returned; else the frame is new. Rows must be
+          contiguous, views must not overlap, and payload and depth have the same strides. Unless it is cleared, no depth
+          may exceed DEPTH_CLEAR.
         clear: clears `onto` first, inside the scissor.
         depth_only: neither makes nor writes payloads.
         """
@@ -371,7 +379,8 @@ class Scene(_Drawable):
         of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0; their error is below
         2**-25 + 2**-47, that of the distance below 2**-24 + 2**-48 of it. The distance is w in clip space, so a projection
         with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background: 0 and infinity.
-        ValueError if the frame shows something else than this scene, seen by this camera, with this culling.
+        ValueError if the frame shows something else than this scene, seen by this camera, with this culling. If it was drawn
+        over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
         """
         return self._native.barycentrics(*_matrices([camera]), *frame, first_id, cull, threads)
 
@@ -505,6 +514,13 @@ def _colours(colours: ArrayLike) -> NDArray[np.uint32]:
     if array.size and array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
         raise ValueError("a colour is outside 0 to 0xFFFFFFFF")
     return _array(array, np.uint32)
+
+
+def _masked(mask: ArrayLike) -> NDArray[np.bool_]:
+    array = np.asarray(mask)
+    if array.dtype == np.uint8 and array.ndim == 3:
+        array = _colours(array)
+    return (array & 0xFFFFFF if array.dtype == np.uint32 else array) != 0  # colours: black is not 0
 
 
 def _is_path(value: Any) -> bool:
