@@ -347,7 +347,7 @@ class PythonTest(FolderTest):
     def test_in_brief_only_draws_on_two_threads_count(self):
         found = self.read(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 0)), "other")
         self.assertEqual(python_brief(found), "Ids and depths by `draw` on 2 threads: against VTK 4.0× faster in 1 of 1 scene; against ModernGL 2.0× slower in 1 of 1 "
-                         "scene (`other`, commit abc; [more](results/README.md#python-packages)).")
+                         "scene (a scene is a mesh at one size; both on llvmpipe; `other`, commit abc; [more](results/README.md#python-packages)).")
 
     def test_nothing_is_said_of_nothing_and_what_is_no_result_is_refused(self):
         for told in (python_tables, python_brief):
