@@ -12,7 +12,7 @@ sys.path.insert(0, str(SCRIPTS / "reporting"))
 from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
-from bench_tables import engine_table, peer_tables, speed_table, tails_table, tile_stores_table  # noqa: E402
+from bench_tables import engine_table, peer_tables, scene_table, speed_table, tails_table, tile_stores_table  # noqa: E402
 from factors import gains, superlinear  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
@@ -54,6 +54,13 @@ def turning(*counts):
 
 
 class AnswersTest(unittest.TestCase):
+    def test_the_table_of_backends_has_every_number_of_threads(self):
+        found = bench({f"{backend}/s/threads:{n}": ms / n for backend, ms in (("scanline", 16.0), ("naive", 64.0), ("tiled", 8.0)) for n in (1, 2, 4, 16)})
+        (line,) = scene_table(found)[1]
+        self.assertEqual([cell for cell in line if " / " in cell],
+                         ["16.0 / 8.00 / 4.00 / 1.00", "64.0 / 32.0 / 16.0 / 4.00", "8.00 / 4.00 / 2.00 / 0.500"])
+        self.assertEqual(line[-1], "tiled, 2.0×")
+
     def test_the_engine_is_compared_with_its_exact_numbers(self):
         self.assertEqual(engine_table(bench({})), (["numbers"], []))
         timed = bench({"tiled/large/threads:1": 9.0, "tiled/large/engine:exact/threads:1": 10.0, "tiled/large/engine:float/threads:1": 8.0,
