@@ -106,8 +106,8 @@ void copy_out(const std::vector<T>& from, T* to, const char* name) {
 glm::dmat4 matrix_of(const double* elements) {
   return glm::make_mat4(&given(elements, "matrix"));
 }
-void store(const glm::dmat4& matrix, double* elements) {
-  std::copy_n(glm::value_ptr(matrix), 16, &given(elements, "projection"));
+void store(const glm::dmat4& matrix, double* elements, const char* name = "projection") {
+  std::copy_n(glm::value_ptr(matrix), 16, &given(elements, name));
 }
 
 FrameView view_of(const edgewise_frame& frame) {
@@ -206,6 +206,13 @@ edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction
 edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16],
                                     const double projection[16]) {
   return status_of([&] { meshes_of(scene).matrices = {matrix_of(view), matrix_of(projection)}; });
+}
+
+edgewise_status edgewise_view(const double position[3], float yaw, float pitch, double view[16]) {
+  return status_of([&] {
+    const Camera camera{.position = glm::make_vec3(&given(position, "position")), .yaw = yaw, .pitch = pitch};
+    store(matrices_of(camera, 1.0).view, view, "view");
+  });
 }
 
 edgewise_status edgewise_frame_scene(edgewise_scene* scene, double aspect) {

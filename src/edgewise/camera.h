@@ -1,5 +1,5 @@
 // Cameras: a position and two angles, or any view and projection as matrices, with helpers for the
-// conventions of other programs. Frontend::run() and draw() check them; the helpers check their arguments.
+// conventions of other programs. Frontend::run() and draw() check matrices; the helpers check numbers.
 //
 // World space is right-handed: x points right, y up, and z backwards for a camera of yaw 0 and pitch 0, which
 // looks along -z. Angles are in radians, lengths in world units.

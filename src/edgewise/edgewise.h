@@ -90,6 +90,9 @@ edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction
  * excludes, such as singular ones. That header also says what clips and what depth means. */
 edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16],
                                     const double projection[16]);
+/* The view of a camera at `position`: yaw 0 and pitch 0 look along -z, positive yaw turns left, positive
+ * pitch looks up. Angles in radians. */
+edgewise_status edgewise_view(const double position[3], float yaw, float pitch, double view[16]);
 /* Projections for edgewise_set_camera(), as camera.h describes them. Distances are along the view direction.
  */
 /* x right, y up, looks along -z. fov_y in radians; far_z may be infinite. */

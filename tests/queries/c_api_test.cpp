@@ -84,6 +84,9 @@ TEST(CInterface, ProjectsAsCameraHSays) {
     EXPECT_EQ(status, EDGEWISE_OK);
     EXPECT_EQ(glm::make_mat4(made), expected);
   };
+  const double position[] = {1, -2, 3};
+  expect(edgewise_view(position, 0.5f, -0.2f, made),
+         matrices_of({.position = {1, -2, 3}, .yaw = 0.5f, .pitch = -0.2f}, 1.0).view);
   expect(edgewise_perspective(1.1, 1.4, 0.3, 8, made), perspective_projection(1.1, 1.4, 0.3, 8));
   expect(edgewise_orthographic(-1, 2, -3, 4, 5, 6, made), orthographic_projection(-1, 2, -3, 4, 5, 6));
   const double k[] = {500, 3, 320, 0, 400, 200, 0, 0, 1};  // by rows
@@ -321,6 +324,10 @@ TEST(CInterface, TellsErrorsAndChangesNothing) {
   fails(edgewise_add_instance(both.c, 1, nullptr, nullptr), "mesh 1 of 1");
   fails(edgewise_set_instance(both.c, 2, glm::value_ptr(kMatrix)), "instance 2 of 2");
   fails(edgewise_set_instance(both.c, 1, nullptr), "matrix is null");
+  double view[16] = {}, position[3] = {};
+  fails(edgewise_view(nullptr, 0, 0, view), "position is null");
+  fails(edgewise_view(position, 0, 0, nullptr), "view is null");
+  fails(edgewise_view(position, 0, std::numeric_limits<float>::infinity(), view), "must be finite");
   const glm::dmat4 rows = glm::transpose(glm::translate(glm::dmat4(1.0), glm::dvec3(1.0)));
   fails(edgewise_set_instance(both.c, 1, glm::value_ptr(rows)), "last row");
   fails(edgewise_add_instance(both.c, 0, glm::value_ptr(rows), nullptr), "last row");
