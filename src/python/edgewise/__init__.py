@@ -235,7 +235,7 @@ def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | N
     if depths[0] != depths[1]:
         raise ValueError("a picture cannot be compared with a depth map")
     if mask is not None and not _is_path(mask):
-        mask = np.where(_masked(mask), np.uint32(0xFFFFFFFF), np.uint32(BLACK))
+        mask = _mask(mask)
     if depths[0]:
         return Difference(*_native.diff_depths(*(_readable(x) if _is_path(x) else _array(x, np.float32) for x in (a, b)), mask))
     return Difference(*_native.diff_pictures(*(_readable(x) if _is_path(x) else _colours(x) for x in (a, b)), mask))
@@ -516,11 +516,12 @@ def _colours(colours: ArrayLike) -> NDArray[np.uint32]:
     return _array(array, np.uint32)
 
 
-def _masked(mask: ArrayLike) -> NDArray[np.bool_]:
+def _mask(mask: ArrayLike) -> NDArray[np.uint32]:
+    """A picture that is black where pixels count."""
     array = np.asarray(mask)
-    if array.dtype == np.uint8 and array.ndim == 3:
-        array = _colours(array)
-    return (array & 0xFFFFFF if array.dtype == np.uint32 else array) != 0  # colours: black is not 0
+    if array.dtype == np.uint32 or array.dtype == np.uint8 and array.ndim == 3:
+        return _colours(array)
+    return np.where(array != 0, np.uint32(0xFFFFFFFF), np.uint32(BLACK))
 
 
 def _is_path(value: Any) -> bool:
