@@ -70,7 +70,7 @@ HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull,
   std::memcpy(&kept_lanes, bits, (kLanes + 7) / 8);
   kept_lanes = little_endian(kept_lanes);
   ScreenTriangle* place[kLanes];
-  ScreenTriangle* next = out.triangles.data() + out.count;
+  ScreenTriangle* next = out.triangles + out.count;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     place[lane] = next;
     next += kept_lanes >> lane & 1;

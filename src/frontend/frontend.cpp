@@ -65,8 +65,7 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
 struct Frontend::State {
   SceneMaker maker;
   InOrder order;
-  Buffer<ScreenTriangle> screen;
-  Buffer<UnsnappedTriangle> unsnapped;
+  TriangleBuffers visible;
   std::size_t unsnapped_count = 0;  // valid ones
   Buffer<TriangleState> states;
   std::size_t state_count = 0;  // valid ones
@@ -86,41 +85,24 @@ struct Frontend::State {
     options.target = resolve(o.target);
   }
 
-  // Copies output to its place in the frame's output.
-  void place(const ChunkOutput& out, std::size_t at) {
-    if (at + out.count > screen.capacity()) return;  // run() repeats the frame with more room
-    std::copy_n(out.triangles.data(), out.count, screen.data() + at);
-    if (options.keep_unsnapped) std::copy_n(out.unsnapped.data(), out.count, unsnapped.data() + at);
-  }
-
   // As many as have work.
   int workers_for(std::size_t count, std::size_t length) const {
     const auto threads = count < kWorthThreads ? 1 : static_cast<std::size_t>(options.threads);
     return static_cast<int>(std::clamp((count + length - 1) / length, std::size_t{1}, threads));
   }
 
-  // Calls make(worker, begin, end, output, flush) for ranges of `length` inputs; if there is one worker, for
+  // Calls make(worker, begin, end, output, ready) for ranges of `length` inputs; if there is one worker, for
   // all `count` at once.
   template <typename Make>
   void for_each_range(std::size_t count, std::size_t length, Make&& make) {
     const int workers = workers_for(count, length);
     order.start_frame(workers, workers > 1 ? length : 0, options.keep_unsnapped);
-    if (workers > 1)
-      return order.for_each_range((count + length - 1) / length, workers,
-                                  [&](int worker, std::size_t range, ChunkOutput& out, auto&& flush) {
-                                    make(worker, range * length, std::min(count, (range + 1) * length), out,
-                                         flush);
-                                  },
-                                  [&](const ChunkOutput& out, std::size_t at) { place(out, at); });
-    // Writes where the frame's output belongs. If that is full, run() repeats the frame with more room.
-    ChunkOutput& out = order.output(0);
-    const auto swap = [&] { std::swap(out.triangles, screen), std::swap(out.unsnapped, unsnapped); };
-    const auto flush = [&] { order.add(out.count), out.count = 0; };
-    swap();
-    out.count = 0;
-    make(0, std::size_t{0}, count, out, flush);
-    flush();
-    swap();
+    if (workers == 1) length = std::max(count, std::size_t{1});
+    order.for_each_range((count + length - 1) / length, workers, visible,
+                         [&](int worker, std::size_t range, ChunkOutput& out, auto&& ready) {
+                           const std::size_t begin = range * length;
+                           make(worker, begin, std::min(count, begin + length), out, ready);
+                         });
   }
 
   // Long ranges share few vertices. Short ones keep all workers busy until the end.
@@ -131,7 +113,7 @@ struct Frontend::State {
                   8'000'000);  // as frontend.h promises for a thread
     static_assert(InOrder::kBuffers * (kMost + ChunkOutput::kChunkRoom) * sizeof(UnsnappedTriangle) <
                   6'000'000);
-    return std::clamp(count / (8 * static_cast<std::size_t>(options.threads)), kLeast, kMost);
+    return std::clamp(count / (16 * static_cast<std::size_t>(options.threads)), kLeast, kMost);
   }
 
   void run_scene(const Scene& scene, std::size_t count) {
@@ -139,8 +121,8 @@ struct Frontend::State {
     maker.start_frame(scene, options, options.keep_states ? states.data() : nullptr,
                       workers_for(count, length));
     for_each_range(count, length,
-                   [&](int worker, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& flush) {
-                     maker.make(worker, begin, end, out, flush);
+                   [&](int worker, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& ready) {
+                     maker.make(worker, begin, end, out, ready);
                    });
     maker.end_frame(stats);
   }
@@ -150,18 +132,17 @@ struct Frontend::State {
     const StreamTask task{options, stream, options.keep_states ? states.data() : nullptr};
     const std::size_t count = stream.triangles.size();
     stats.triangles = count;
-    for_each_range(count, kChunkTriangles,
-                   [&](int, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& flush) {
+    for_each_range(count, range_length(count),
+                   [&](int, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& ready) {
                      for (; begin < end; begin += kChunkTriangles) {
-                       if (!out.has_room()) flush();
+                       ready();
                        kernel(task, begin, std::min(end, begin + kChunkTriangles), out);
                      }
                    });
   }
 
   void run_once(const Drawable& drawable, std::size_t count, std::size_t room) {
-    screen.reserve(room + ChunkOutput::kChunkRoom);
-    if (options.keep_unsnapped) unsnapped.reserve(screen.capacity());
+    visible.reserve(room + ChunkOutput::kChunkRoom, options.keep_unsnapped);
     stats = {};
     if (const auto* scene = std::get_if<Scene>(&drawable))
       run_scene(*scene, count);
@@ -178,7 +159,7 @@ struct Frontend::State {
     run_once(drawable, count, count);
     // Clipping added more triangles than were dropped. This is rare, and the memory then suffices for the
     // next frames of the kind.
-    if (order.total() + ChunkOutput::kChunkRoom > screen.capacity())
+    if (order.total() + ChunkOutput::kChunkRoom > visible.screen.capacity())
       run_once(drawable, count, checked_count(order.total()));
     if (options.keep_unsnapped) unsnapped_count = order.total();
     if (options.keep_states) state_count = count;
@@ -194,7 +175,7 @@ ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& o
   State& s = *state_;
   s.set(options);
   s.run(drawable);
-  return {{s.screen.data(), s.order.total()}, options.width, options.height};
+  return {{s.visible.screen.data(), s.order.total()}, options.width, options.height};
 }
 
 TriangleSource* Frontend::start_source(const Drawable& drawable, const FrontendOptions& options,
@@ -219,7 +200,7 @@ const FrontendStats& Frontend::stats() const {
 }
 
 std::span<const UnsnappedTriangle> Frontend::unsnapped() const {
-  return {state_->unsnapped.data(), state_->unsnapped_count};
+  return {state_->visible.unsnapped.data(), state_->unsnapped_count};
 }
 
 std::span<const TriangleState> Frontend::states() const {

@@ -14,31 +14,38 @@
 
 namespace edgewise {
 
-// Workers take ranges in order. When all ranges before a finished one are finished too, it gets its position
-// in the output, and its worker copies it there when it next looks. Until then the worker makes other ranges
-// into other buffers. It waits only if no buffer is free.
+// Workers take ranges in order. The lowest unfinished range is written where it belongs, the others into
+// buffers. When all ranges before a finished one are finished too, it gets its position, and its worker
+// copies it there when it next looks. Until then the worker makes other ranges into other buffers. It waits
+// only if no buffer is free.
 //
 // The lowest unfinished range waits for no other, so there is no deadlock.
 class InOrder {
  public:
   static constexpr std::size_t kBuffers = 3;  // per worker: to fill one while two wait for their positions
 
-  // A range has up to `inputs` triangles.
+  // A range has up to `inputs` triangles, few of which are clipped.
   void start_frame(int threads, std::size_t inputs, bool with_unsnapped) {
     total_ = 0;
+    with_unsnapped_ = with_unsnapped;
     const std::size_t count = static_cast<std::size_t>(threads) * kBuffers;
     if (slots_.size() < count) slots_ = std::vector<Slot>(count);
     for (Slot& slot : slots_) {
-      slot.out.reserve(inputs, with_unsnapped);
+      slot.buffers.reserve(inputs + ChunkOutput::kChunkRoom, with_unsnapped);
       slot.out.stats = {};
     }
   }
 
-  // For each range, calls make(worker, range, output, flush), which must fill the empty output. When that is
-  // full, make() calls flush(), which empties it. For each output, place(output, at) is called, where `at` is
-  // the number of triangles before it. No function may throw.
-  template <typename Make, typename Place>
-  void for_each_range(std::size_t ranges, int workers, Make&& make, Place&& place) {
+  // For each range, calls make(worker, range, output, ready), which must append the range's triangles to the
+  // output and call ready() before each chunk of them. All that fit into `visible` lie there at the end. No
+  // function may throw.
+  template <typename Make>
+  void for_each_range(std::size_t ranges, int workers, TriangleBuffers& visible, Make&& make) {
+    const auto place = [&](const ChunkOutput& out, std::size_t at) {
+      if (at + out.count > visible.screen.capacity() || out.triangles == visible.screen.data() + at) return;
+      std::copy_n(out.triangles, out.count, visible.screen.data() + at);
+      if (with_unsnapped_) std::copy_n(out.unsnapped, out.count, visible.unsnapped.data() + at);
+    };
     std::atomic<std::size_t> next{0};
     turn_ = 0;
     finished_.assign(ranges, nullptr);
@@ -68,12 +75,15 @@ class InOrder {
         const std::size_t range = next.fetch_add(1, std::memory_order_relaxed);
         if (range >= ranges) break;
         ChunkOutput& out = slot.out;
-        out.count = 0;
+        out.write_to(slot.buffers, 0);
+        const auto is_lowest = [&](std::uint32_t turn) { return turn == range; };
         make(worker, range, out, [&] {
-          place_until([&](std::uint32_t turn) { return turn == range; });
+          if (!out.has_room()) place_until(is_lowest);
+          if (!is_lowest(turn_.load(std::memory_order_acquire))) return;
           place(out, total_);
           total_ += out.count;
-          out.count = 0;
+          const bool fits = total_ + ChunkOutput::kChunkRoom <= visible.screen.capacity();
+          fits ? out.write_to(visible, total_) : out.write_to(slot.buffers, 0);
         });
         slot.position.store(kPending, std::memory_order_relaxed);
         finish(range, slot);
@@ -82,9 +92,12 @@ class InOrder {
     });
   }
 
-  // A worker's own, for callers that need no order, or only one worker.
-  ChunkOutput& output(int worker) { return slots_of(worker).front().out; }
-  void add(std::size_t triangles) { total_ += triangles; }
+  // A worker's own, emptied, for callers that need no order.
+  ChunkOutput& output(int worker) {
+    Slot& slot = slots_of(worker).front();
+    slot.out.write_to(slot.buffers, 0);
+    return slot.out;
+  }
   std::size_t total() const { return total_; }  // output triangles since start_frame()
   FrontendStats stats() const {
     FrontendStats sum;
@@ -97,6 +110,7 @@ class InOrder {
   static constexpr std::size_t kFree = ~std::size_t{0}, kPending = kFree - 1;
 
   struct Slot {
+    TriangleBuffers buffers;
     ChunkOutput out;
     std::atomic<std::size_t> position{kFree};
   };
@@ -134,6 +148,7 @@ class InOrder {
   }
 
   std::size_t total_ = 0;
+  bool with_unsnapped_ = false;
   std::vector<Slot> slots_;             // kBuffers per worker
   std::atomic_flag locked_;             // held by finish(), for a few stores; WASI has no std::mutex
   std::atomic<std::uint32_t> turn_{0};  // the ranges before this one have positions

@@ -59,11 +59,11 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
   } else {
     ++stats.emitted;
     if (options.keep_unsnapped)
-      out.unsnapped.data()[out.count] =
+      out.unsnapped[out.count] =
           triangle_of(vertices.unsnapped(0), vertices.unsnapped(1), vertices.unsnapped(2));
     if (out.sources != nullptr)
       out.sources->push_back({vertices.source(0), vertices.source(1), vertices.source(2)});
-    out.triangles.data()[out.count++] = t;
+    out.triangles[out.count++] = t;
   }
 }
 

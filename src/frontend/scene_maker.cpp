@@ -1,6 +1,7 @@
 #include "frontend/scene_maker.h"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -125,11 +126,12 @@ void SceneMaker::make_visible(Worker& w, std::size_t begin, std::size_t end, Chu
   const std::size_t first = out.count;
   assemble_(task, begin, end, w.window.corners(task, begin, end, range, transform_), out);
   if (options_.payload == Payload::id) return;
-  if (options_.shade) return shade_(*w.light, out, first);
-  std::for_each_n(out.triangles.data() + first, out.count - first, [&](ScreenTriangle& t) {
+  const std::span made(out.triangles + first, out.count - first);
+  if (options_.shade) return shade_(*w.light, made);
+  for (ScreenTriangle& t : made) {
     const std::uint32_t index = t.payload - task.first_id;
     t.payload = mesh.colours[index];
-  });
+  }
 }
 
 void SceneMaker::end_frame(FrontendStats& stats) {

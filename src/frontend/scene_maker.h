@@ -23,17 +23,17 @@ class SceneMaker {
   // `states` holds one per submitted triangle, to be written, or is null. The arguments must outlive the
   // frame. Throws as Frontend::run() does.
   void start_frame(const Scene& scene, const FrontendOptions& options, TriangleState* states, int workers);
-  // Appends the visible triangles of the submitted triangles begin … end - 1. Calls flush() if the output is
-  // full. Calls with different workers may run at once. Does not throw.
-  template <typename Flush>
-  void make(int worker, std::size_t begin, std::size_t end, ChunkOutput& out, Flush&& flush) {
+  // Appends the visible triangles of the submitted triangles begin … end - 1. Calls ready() before each
+  // chunk of them. Calls with different workers may run at once. Does not throw.
+  template <typename Ready>
+  void make(int worker, std::size_t begin, std::size_t end, ChunkOutput& out, Ready&& ready) {
     Worker& w = workers_[static_cast<std::size_t>(worker)];
     for (std::size_t instance = instance_of(first_ids_, begin); begin < end; ++instance) {
       const std::size_t first = first_ids_[instance], last = std::min(end, first_ids_[instance + 1]);
       if (begin == last) continue;
       if (w.instance != instance) start_instance(w, instance);
       for (std::size_t i = begin - first; i < last - first;) {
-        if (!out.has_room()) flush();
+        ready();
         i = make_some(w, i, last - first, out);
       }
       begin = last;

@@ -124,13 +124,12 @@ float side_seen(const Mesh& mesh, std::uint32_t index, const ScreenTriangle& see
 }
 
 template <bool kFlagged, bool kNormals>
-void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
+void shade_all(const ShadeTask& task, std::span<ScreenTriangle> triangles) {
   const DI d;
   const Padded vectors(kNormals ? task.mesh.normals : task.mesh.positions);
   using Source = std::conditional_t<kNormals, const float*, const glm::uvec3*>;
-  ScreenTriangle* triangles = out.triangles.data();
-  for (std::size_t i = first; i < out.count; i += kLanes) {
-    const std::size_t count = std::min(kLanes, out.count - i);
+  for (std::size_t i = 0; i < triangles.size(); i += kLanes) {
+    const std::size_t count = std::min(kLanes, triangles.size() - i);
     Source sources[kLanes];
     std::uint32_t colours[kLanes];
     float sides[kLanes];
@@ -152,12 +151,12 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   }
 }
 
-void shade(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
+void shade(const ShadeTask& task, std::span<ScreenTriangle> triangles) {
   const bool flagged = !task.mesh.flags.empty();
   if (task.mesh.normals.empty())
-    flagged ? shade_all<true, false>(task, out, first) : shade_all<false, false>(task, out, first);
+    flagged ? shade_all<true, false>(task, triangles) : shade_all<false, false>(task, triangles);
   else
-    flagged ? shade_all<true, true>(task, out, first) : shade_all<false, true>(task, out, first);
+    flagged ? shade_all<true, true>(task, triangles) : shade_all<false, true>(task, triangles);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -200,19 +199,16 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   std::vector<std::uint32_t> colours;
   const glm::dvec3 to_light = glm::normalize(glm::dvec3(scene.to_light));
   const View view(scene, 2, 2);  // any size
-  ChunkOutput out;
-  out.reserve(kChunkTriangles, false);
+  std::vector<ScreenTriangle> triangles;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model = model_matrix(instance);
     const ShadeTask task{mesh, cofactor_matrix(model), to_light, 0};
-    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kChunkTriangles) {
-      out.count = std::min(kChunkTriangles, mesh.triangles.size() - begin);
-      for (std::size_t i = 0; i < out.count; ++i)
-        out.triangles.data()[i] = wound_as_seen(view, mesh, model, begin + i);
-      kernel(task, out, 0);
-      for (std::size_t i = 0; i < out.count; ++i) colours.push_back(out.triangles.data()[i].payload);
-    }
+    triangles.clear();
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      triangles.push_back(wound_as_seen(view, mesh, model, i));
+    kernel(task, triangles);
+    for (const ScreenTriangle& t : triangles) colours.push_back(t.payload);
   }
   return colours;
 }

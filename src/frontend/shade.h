@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "edgewise/simd_target.h"
@@ -20,8 +21,8 @@ struct ShadeTask {
   std::uint32_t first_id;  // of the mesh's triangles
 };
 
-// Replaces ids by lit colours in the output's triangles from `first` on.
-using ShadeKernel = void (*)(const ShadeTask& task, ChunkOutput& out, std::size_t first);
+// Replaces the triangles' ids by lit colours.
+using ShadeKernel = void (*)(const ShadeTask& task, std::span<ScreenTriangle> triangles);
 
 // `target` must be resolved.
 ShadeKernel shade_kernel(SimdTarget target);

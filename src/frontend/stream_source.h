@@ -17,9 +17,8 @@ class StreamSource final : public TriangleSource {
   std::size_t size() const override { return task_.stream.triangles.size(); }
   std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) override {
     ChunkOutput& out = order_.output(worker);
-    out.count = 0;
     kernel_(task_, begin, end, out);
-    return {out.triangles.data(), out.count};
+    return {out.triangles, out.count};
   }
   std::span<const ScreenTriangle> probe(std::size_t input) override {
     const FrontendStats before = order_.output(0).stats;

@@ -51,6 +51,16 @@ struct SourceVertex {
   std::array<double, 3> weights;
 };
 
+struct TriangleBuffers {
+  void reserve(std::size_t count, bool with_unsnapped) {
+    screen.reserve(count);
+    if (with_unsnapped) unsnapped.reserve(screen.capacity());
+  }
+
+  Buffer<ScreenTriangle> screen;
+  Buffer<UnsnappedTriangle> unsnapped;  // with keep_unsnapped only
+};
+
 // Visible triangles of consecutive submitted ones. Assembly writes ids as the payloads of a mesh's triangles.
 // For Payload::colour, colours then replace the ids. The alignment keeps two workers' outputs out of the same
 // pair of cache lines, which processors fetch together.
@@ -59,19 +69,23 @@ struct alignas(128) ChunkOutput {
   // last vector is stored whole.
   static constexpr std::size_t kChunkRoom = kChunkTriangles * 7 + 16;
 
-  // Room for `inputs` triangles, of which few are clipped.
-  void reserve(std::size_t inputs, bool with_unsnapped) {
-    triangles.reserve(inputs + kChunkRoom);
-    if (with_unsnapped) unsnapped.reserve(triangles.capacity());
+  // Empties the output, and continues in `buffers` from record `at` on.
+  void write_to(TriangleBuffers& buffers, std::size_t at) {
+    triangles = buffers.screen.data() + at;
+    unsnapped = buffers.unsnapped.capacity() == 0 ? nullptr : buffers.unsnapped.data() + at;
+    capacity = buffers.screen.capacity() - at;
+    count = 0;
   }
   // True if the output of any kChunkTriangles triangles fits.
-  bool has_room() const { return count + kChunkRoom <= triangles.capacity(); }
+  bool has_room() const { return count + kChunkRoom <= capacity; }
 
-  Buffer<ScreenTriangle> triangles;
-  Buffer<UnsnappedTriangle> unsnapped;                          // with keep_unsnapped only
+  ScreenTriangle* triangles = nullptr;
+  UnsnappedTriangle* unsnapped = nullptr;                       // with keep_unsnapped only
   std::vector<std::array<SourceVertex, 3>>* sources = nullptr;  // unless null, add_one() appends to it
-  std::size_t count = 0;
-  FrontendStats stats;  // the sum over all that its worker made into it in the frame
+  std::size_t capacity = 0, count = 0;
+  // The sum over all that its worker made into it in the frame. Aligned, so that no counter that each vector
+  // of triangles adds to lies across two cache lines.
+  alignas(64) FrontendStats stats;
 };
 
 struct IndexRange {

@@ -104,7 +104,7 @@ class Triangles {
   class Maker {
    public:
     explicit Maker(const Triangles& all) : all_(all), transform_(transform_kernel(all.options_.target)) {
-      out_.triangles.reserve(Clipper::kMaxVertices - 2);
+      out_.triangles = pieces_;
       out_.sources = &sources_;
     }
     // Appends the pieces of triangle `id`, which exists. Ids begin at 0 here.
@@ -116,7 +116,7 @@ class Triangles {
       else
         add_mesh_triangle(id);
       for (std::size_t i = 0; i < out_.count; ++i)
-        pieces.emplace_back(out_.triangles.data()[i], sources_[i], all_.w_is_distance_);
+        pieces.emplace_back(pieces_[i], sources_[i], all_.w_is_distance_);
     }
 
    private:
@@ -149,6 +149,7 @@ class Triangles {
     const Triangles& all_;
     TransformKernel transform_;
     std::optional<MeshTask> task_;  // of the last triangle's instance
+    ScreenTriangle pieces_[Clipper::kMaxVertices - 2];
     ChunkOutput out_;
     Sources sources_;
   };

@@ -106,22 +106,19 @@ TEST(FrontendOrder, IsThatOfTheRangesWhateverTheirDuration) {
   for (const int workers : {1, 2, 8}) {
     InOrder order;
     order.start_frame(workers, 100, false);
-    std::vector<std::uint32_t> placed;
-    placed.resize(kRanges * 100);
-    order.for_each_range(
-        kRanges, workers,
-        [&](int, std::size_t range, ChunkOutput& out, auto&& flush) {
-          if (range % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-          for (std::uint32_t i = 0; i < 100; ++i) {
-            if (range % 7 == 3 && i == 50) flush();
-            out.triangles.data()[out.count++].payload = static_cast<std::uint32_t>(range) * 100 + i;
-          }
-        },
-        [&](const ChunkOutput& out, std::size_t at) {
-          for (std::size_t i = 0; i < out.count; ++i) placed[at + i] = out.triangles.data()[i].payload;
-        });
-    ASSERT_EQ(order.total(), placed.size());
-    for (std::uint32_t i = 0; i < placed.size(); ++i) ASSERT_EQ(placed[i], i) << workers << " workers";
+    TriangleBuffers placed;
+    placed.reserve(kRanges * 100 + ChunkOutput::kChunkRoom, false);
+    order.for_each_range(kRanges, workers, placed,
+                         [&](int, std::size_t range, ChunkOutput& out, auto&& ready) {
+                           if (range % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                           for (std::uint32_t i = 0; i < 100; ++i) {
+                             if (range % 7 == 3 && i % 20 == 0) ready();
+                             out.triangles[out.count++].payload = static_cast<std::uint32_t>(range) * 100 + i;
+                           }
+                         });
+    ASSERT_EQ(order.total(), kRanges * 100);
+    for (std::uint32_t i = 0; i < kRanges * 100; ++i)
+      ASSERT_EQ(placed.screen.data()[i].payload, i) << workers << " workers";
   }
 }
 
