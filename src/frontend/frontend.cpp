@@ -92,7 +92,7 @@ struct Frontend::State {
   }
 
   // Calls make(worker, begin, end, output, ready) for ranges of `length` inputs; if there is one worker, for
-  // all `count` at once.
+  // all `count` at once, unless there are none.
   template <typename Make>
   void for_each_range(std::size_t count, std::size_t length, Make&& make) {
     const int workers = workers_for(count, length);

@@ -14,10 +14,11 @@
 
 namespace edgewise {
 
-// Workers take ranges in order. The lowest unfinished range is written where it belongs, the others into
-// buffers. When all ranges before a finished one are finished too, it gets its position, and its worker
-// copies it there when it next looks. Until then the worker makes other ranges into other buffers. It waits
-// only if no buffer is free.
+// Workers take ranges in order, and make a range into a buffer. Once all earlier ranges are finished, the
+// worker moves what it has made to its place in the output, and makes the rest of the range there. A range
+// that is finished before gets its position when the earlier ones are finished, and its worker copies it
+// before it takes its next range. Until then the worker makes other ranges into other buffers. It waits only
+// if no buffer is free.
 //
 // The lowest unfinished range waits for no other, so there is no deadlock.
 class InOrder {
@@ -37,8 +38,8 @@ class InOrder {
   }
 
   // For each range, calls make(worker, range, output, ready), which must append the range's triangles to the
-  // output and call ready() before each chunk of them. All that fit into `visible` lie there at the end. No
-  // function may throw.
+  // output and call ready() before each chunk of them. At the end, all triangles lie in `visible`; some are
+  // missing if it lacks room for total() + kChunkRoom. No function may throw.
   template <typename Make>
   void for_each_range(std::size_t ranges, int workers, TriangleBuffers& visible, Make&& make) {
     const auto place = [&](const ChunkOutput& out, std::size_t at) {
@@ -78,8 +79,9 @@ class InOrder {
         out.write_to(slot.buffers, 0);
         const auto is_lowest = [&](std::uint32_t turn) { return turn == range; };
         make(worker, range, out, [&] {
-          if (!out.has_room()) place_until(is_lowest);
-          if (!is_lowest(turn_.load(std::memory_order_acquire))) return;
+          const bool in_place = out.triangles != slot.buffers.screen.data();
+          if (out.has_room() && (in_place || !is_lowest(turn_.load(std::memory_order_acquire)))) return;
+          place_until(is_lowest);
           place(out, total_);
           total_ += out.count;
           const bool fits = total_ + ChunkOutput::kChunkRoom <= visible.screen.capacity();

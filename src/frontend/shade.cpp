@@ -204,11 +204,13 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model = model_matrix(instance);
     const ShadeTask task{mesh, cofactor_matrix(model), to_light, 0};
-    triangles.clear();
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      triangles.push_back(wound_as_seen(view, mesh, model, i));
-    kernel(task, triangles);
-    for (const ScreenTriangle& t : triangles) colours.push_back(t.payload);
+    for (std::size_t i = 0; i < mesh.triangles.size();) {
+      triangles.clear();
+      for (const std::size_t end = std::min(mesh.triangles.size(), i + kChunkTriangles); i < end; ++i)
+        triangles.push_back(wound_as_seen(view, mesh, model, i));
+      kernel(task, triangles);
+      for (const ScreenTriangle& t : triangles) colours.push_back(t.payload);
+    }
   }
   return colours;
 }

@@ -21,9 +21,10 @@ class StreamSource final : public TriangleSource {
     return {out.triangles, out.count};
   }
   std::span<const ScreenTriangle> probe(std::size_t input) override {
-    const FrontendStats before = order_.output(0).stats;
+    FrontendStats& stats = order_.output(0).stats;
+    const FrontendStats before = stats;
     const auto triangles = make(0, input, input + 1);
-    order_.output(0).stats = before;
+    stats = before;
     return triangles;
   }
 

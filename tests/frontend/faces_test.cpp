@@ -136,6 +136,7 @@ TEST(Faces, WithoutANormalGetAmbientLight) {
   mesh.positions = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}, {1, 1, -3}};
   mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
   scene.instances.push_back({});
+  scene.meshes.emplace_back(), scene.instances.push_back({.mesh = 1});  // without triangles
   scene.to_light = {0, 0, 1};
   EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, rgb(30, 30, 30)));
 }

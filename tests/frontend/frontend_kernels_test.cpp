@@ -405,9 +405,10 @@ TEST(FrontendKernels, StreamsOnPlanesAreTheSameOnEveryTarget) {
 
 // Streams of lengths around those of a vector and a chunk: no triangle is lost, duplicated or reordered.
 TEST(FrontendKernels, StreamsOfAnyLengthKeepTheOrder) {
-  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{15}, std::size_t{16},
-                                  std::size_t{17}, kChunkTriangles - 1, kChunkTriangles, kChunkTriangles + 1,
-                                  kWorthThreads - 1, kWorthThreads, 3 * kWorthThreads + 5}) {
+  for (const std::size_t count :
+       {std::size_t{0}, std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{17},
+        kChunkTriangles - 1, kChunkTriangles, kChunkTriangles + 1, kWorthThreads - 1, kWorthThreads,
+        3 * kWorthThreads + 5, std::size_t{200'005}}) {
     TriangleStream stream{100, 100, {}};
     for (std::size_t i = 0; i < count; ++i)
       stream.triangles.push_back({{{1, 1, 0.5f}, {50, 1, 0.5f}, {1, 50, 0.5f}}, 0});

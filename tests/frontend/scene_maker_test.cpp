@@ -72,10 +72,11 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
   }
 }
 
-// Each triangle becomes five, so that a worker's buffer is full before its range ends; also if an earlier
-// frame had longer ranges.
+// Each triangle becomes five, so that a worker's buffer is full before its range ends, and the frame's within
+// a range; also if an earlier frame had longer ranges.
 TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
-  constexpr std::size_t kCount = 65'536, kPieces = 5;
+  constexpr std::size_t kCount = 131'072, kPieces = 5;
+  static_assert(kCount / 32 == 2 * kChunkTriangles);  // the ranges of two threads
   Scene longer, scene;
   longer.instances.resize(1), scene.instances.resize(1);
   longer.meshes.push_back({{{0, 0, 5}}, std::vector<glm::uvec3>(8 * kCount), {}});
@@ -100,7 +101,8 @@ TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
       }
 }
 
-// Workers that finish later ranges first have to wait with all their buffers full.
+// Workers that finish later ranges first have to wait with all their buffers full. One that has half of its
+// range when the earlier ones are finished makes the rest in its place.
 TEST(FrontendOrder, IsThatOfTheRangesWhateverTheirDuration) {
   constexpr std::size_t kRanges = 60;
   for (const int workers : {1, 2, 8}) {
@@ -108,14 +110,16 @@ TEST(FrontendOrder, IsThatOfTheRangesWhateverTheirDuration) {
     order.start_frame(workers, 100, false);
     TriangleBuffers placed;
     placed.reserve(kRanges * 100 + ChunkOutput::kChunkRoom, false);
-    order.for_each_range(kRanges, workers, placed,
-                         [&](int, std::size_t range, ChunkOutput& out, auto&& ready) {
-                           if (range % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-                           for (std::uint32_t i = 0; i < 100; ++i) {
-                             if (range % 7 == 3 && i % 20 == 0) ready();
-                             out.triangles[out.count++].payload = static_cast<std::uint32_t>(range) * 100 + i;
-                           }
-                         });
+    order.for_each_range(
+        kRanges, workers, placed, [&](int, std::size_t range, ChunkOutput& out, auto&& ready) {
+          const auto sleep = [](int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); };
+          if (range % 20 == 0) sleep(20);
+          for (std::uint32_t i = 0; i < 100; ++i) {
+            if (range % 20 == 1 && i == 50) sleep(40);
+            if (i % 20 == 0) ready();
+            out.triangles[out.count++].payload = static_cast<std::uint32_t>(range) * 100 + i;
+          }
+        });
     ASSERT_EQ(order.total(), kRanges * 100);
     for (std::uint32_t i = 0; i < kRanges * 100; ++i)
       ASSERT_EQ(placed.screen.data()[i].payload, i) << workers << " workers";
