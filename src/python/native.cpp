@@ -139,8 +139,8 @@ PYBIND11_MODULE(_native, m) {
   m.def("read_tri", [](const Path& path) { return with_file_only([&] { return drawn(read_tri(path)); }); });
   m.def("stream", stream);
 
-  py::class_<Drawn> drawable(m, "Drawable");
-  drawable.def(py::init([] { return drawn(Scene{}); }))
+  py::class_<Drawn> drawn_class(m, "Drawable");
+  drawn_class.def(py::init([] { return drawn(Scene{}); }))
       .def("add_mesh", add_arrays)
       .def("add_instance",
            [](Drawn& self, std::size_t mesh, const Matrix& rows) {
@@ -239,7 +239,7 @@ PYBIND11_MODULE(_native, m) {
       .def("barycentrics", &Drawn::barycentrics);
 
   define_images(m);
-  define_laboratory(m, drawable);
+  define_laboratory(m, drawn_class);
 }
 
 }  // namespace edgewise::python
