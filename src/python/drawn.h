@@ -125,11 +125,14 @@ class Drawn {
     const Frames frames(payload, depth, false);
     FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
     options.first_id = first_id;
-    if (frames.is_stack) throw std::invalid_argument("barycentrics need a frame of one view");
-    Floats uv({frames.height, frames.width, 2}), distance({frames.height, frames.width});
-    const BarycentricsView out{uv.mutable_data(), 2 * frames.width, distance.mutable_data(), frames.width};
-    for_each_view(cameras, 1, [&](const Drawable& drawable, std::size_t) {
-      edgewise::barycentrics(frames[0], drawable, options, out);
+    Floats uv(frames.shape({frames.height, frames.width, 2})),
+        distance(frames.shape({frames.height, frames.width}));
+    float *const uvs = uv.mutable_data(), *const distances = distance.mutable_data();
+    const std::size_t pixels =
+        static_cast<std::size_t>(frames.width) * static_cast<std::size_t>(frames.height);
+    for_each_view(cameras, frames.views, [&](const Drawable& drawable, std::size_t i) {
+      edgewise::barycentrics(frames[i], drawable, options,
+                             {uvs + 2 * pixels * i, 2 * frames.width, distances + pixels * i, frames.width});
     });
     return py::make_tuple(uv, distance);
   }
@@ -143,7 +146,5 @@ class Drawn {
 
 // Pictures, depth maps and their differences.
 void define_images(py::module_& m);
-// What the laboratory says of a drawable.
-void define_laboratory(py::module_& m, py::class_<Drawn>& drawable);
 
 }  // namespace edgewise::python

@@ -1,4 +1,4 @@
-// What the laboratory says of a drawable.
+// The extension behind edgewise/lab.py: what the laboratory says of what the extension _native holds.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -86,12 +86,12 @@ Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& pro
 
 }  // namespace
 
-void define_laboratory(py::module_& m, py::class_<Drawn>& drawable) {
+PYBIND11_MODULE(_lab, m) {
   py::list reasons;
   for (int i = 0; i < lab::kUnstableKinds; ++i)
     reasons.append(std::string(name_of(static_cast<lab::Unstable>(i))));
   m.attr("UNSTABLE") = reasons;
-  drawable.def("needs", needs).def("portable", portable);
+  m.def("needs", needs).def("portable", portable);
 }
 
 }  // namespace edgewise::python

@@ -1,6 +1,5 @@
 // The extension behind edgewise/__init__.py, which documents it and converts its arguments' types.
 #include <cstdint>
-#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <memory>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "frontend/scene_edits.h"
 #include "frontend/submission.h"
 #include "python/drawn.h"
+#include "python/state.h"
 #include "raster/checks.h"
 
 namespace edgewise::python {
@@ -63,20 +63,6 @@ std::size_t add_arrays(Drawn& self, const Floats& positions, const Words& triang
   if (colours) mesh.colours = copied<std::uint32_t>(*colours);
   if (two_sided) mesh.flags.assign(mesh.triangles.size(), kTwoSided);
   return self.use_scene([&](Scene& scene) { return add_mesh(scene, std::move(mesh)); });
-}
-
-std::unique_ptr<Drawn> stream(const Floats& vertices, int width, int height,
-                              const std::optional<Words>& colours) {
-  check(vertices, "vertices", {-1, 3, 3});
-  if (colours) check(*colours, "colours", {vertices.shape(0)});
-  TriangleStream made{width, height, {}};
-  made.triangles.resize(static_cast<std::size_t>(vertices.shape(0)));
-  for (std::size_t i = 0; i < made.triangles.size(); ++i) {
-    StreamTriangle& t = made.triangles[i];
-    std::memcpy(t.vertex, vertices.data() + 9 * i, sizeof t.vertex);
-    t.colour = colours ? colours->data()[i] : kLightGrey;
-  }
-  return drawn(std::move(made));
 }
 
 }  // namespace
@@ -238,8 +224,8 @@ PYBIND11_MODULE(_native, m) {
       .def("draw", &Drawn::draw)
       .def("barycentrics", &Drawn::barycentrics);
 
+  define_state(drawn_class);
   define_images(m);
-  define_laboratory(m, drawn_class);
 }
 
 }  // namespace edgewise::python

@@ -1,10 +1,12 @@
-"""pip install ./src/python: CMake builds the extension from the sources around it, in a temporary folder.
+"""pip install ./src/python: CMake builds the extensions from the sources around this folder, in a temporary one. In an archive
+(sdist) they lie beside this file: CMakeLists.txt and src/, as in the tree.
 
-Environment: EDGEWISE_BUILD names a folder to build in, which is kept, so that the next build is short.
-CMAKE_BUILD_PARALLEL_LEVEL is the number of jobs; by default, as many as usable cores."""
+Environment: EDGEWISE_BUILD names a folder to build in, which is kept, so that the next build is short. CMAKE_ARGS: more
+arguments of CMake. CMAKE_BUILD_PARALLEL_LEVEL is the number of jobs; by default, as many as usable cores."""
 import atexit
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -14,8 +16,10 @@ from pathlib import Path
 import pybind11
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.command.sdist import sdist
 
-ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+ROOT = HERE if (HERE / "src").is_dir() else HERE.parents[1]
 
 
 def build_folder():
@@ -35,13 +39,23 @@ class CMake(build_ext):
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(len(os.sched_getaffinity(0))))
         subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DEDGEWISE_PYTHON=ON",
                         "-DEDGEWISE_LABORATORY=OFF", "-DEDGEWISE_INSTALL=OFF", f"-DPython_EXECUTABLE={sys.executable}",
-                        f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DEDGEWISE_PYTHON_FOLDER={module.parent}"], check=True)
+                        f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DEDGEWISE_PYTHON_FOLDER={module.parent}",
+                        *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
         subprocess.run(["cmake", "--build", str(build), "--target", "edgewise_python", "--parallel", jobs], check=True)
 
 
-licence = (ROOT / "README.md").read_text(encoding="utf-8").split("\n## Licence\n\n")[-1]
+class Archive(sdist):
+    def make_release_tree(self, base_dir, files):
+        shutil.copytree(ROOT / "src", Path(base_dir) / "src", ignore=shutil.ignore_patterns("__pycache__", "*.so", "*.egg-info"))
+        for file in (ROOT / "CMakeLists.txt", HERE / "pyproject.toml", HERE / "setup.py"):
+            shutil.copy2(file, base_dir)
+
+
+licence = (ROOT / "src" / "package" / "LICENSE").read_text(encoding="utf-8")
 version = re.search(r"project\(edgewise VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 folder = build_folder()  # nothing is written into the source tree
 setup(version=version, license=licence, packages=["edgewise"], package_data={"edgewise": ["py.typed"]},
-      ext_modules=[Extension("edgewise._native", [])], cmdclass={"build_ext": CMake},
+      package_dir={"edgewise": os.path.relpath(ROOT / "src" / "python" / "edgewise", HERE)},
+      ext_modules=[Extension("edgewise._native", [])],  # and edgewise._lab, if its packages are there
+      cmdclass={"build_ext": CMake, "sdist": Archive},
       options={"build": {"build_base": folder}, "egg_info": {"egg_base": folder}})

@@ -90,7 +90,6 @@ CASES = {
                                     for _ in range(2)))),
     "hash of several views": ("one view", lambda: edgewise.pixel_hash(scene().draw([CAMERA], SIZE))),
     "hash of nothing": ("frame", lambda: edgewise.pixel_hash(edgewise.Frame(plane(0, 5), plane(0, 5)))),
-    "barycentrics of several views": ("one view", lambda: scene().barycentrics(scene().draw([CAMERA], SIZE, ids=True), CAMERA)),
     "barycentrics without ids": ("no payload", lambda: scene().barycentrics(scene().draw(CAMERA, SIZE, depth_only=True), CAMERA)),
     "barycentrics of another scene": ("pixel", lambda: edgewise.Scene(POSITIONS[::-1], INDICES).barycentrics(
         scene().draw(CAMERA, SIZE, ids=True), CAMERA)),

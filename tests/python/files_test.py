@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import edgewise
+import edgewise.lab
 from support import ASPECT, CAMERA, SIZE, same, scene, stream
 
 WIDTH, HEIGHT = SIZE
@@ -207,9 +208,9 @@ def test_portable_pixels_of_a_stream_are_the_programs(tri):
     found = stream().portable(bits=4, depth="d16_unorm")
     said = json.loads(program("portable", tri, "--bits", 4, "--depth", "d16_unorm", "--json"))
     assert found.reasons.shape == (HEIGHT, WIDTH) and found.reasons.dtype == np.uint8
-    assert {reason: found.counts[reason] for reason in edgewise.UNSTABLE[1:]} == said["reasons"]
+    assert {reason: found.counts[reason] for reason in edgewise.lab.UNSTABLE[1:]} == said["reasons"]
     assert sum(found.counts.values()) == WIDTH * HEIGHT
-    assert found.counts["edge"] == (found.reasons == edgewise.UNSTABLE.index("edge")).sum() > 0
+    assert found.counts["edge"] == (found.reasons == edgewise.lab.UNSTABLE.index("edge")).sum() > 0
 
 
 def test_portable_pixels_of_a_scene_are_nearly_the_programs(obj):

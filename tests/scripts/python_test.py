@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""Installs the Python module by pip into a virtual environment, as others would, and runs its tests.
+"""Installs the Python package by pip, as others would, from an archive of its sources (sdist), and runs its tests: first
+without the laboratory, then with it into a virtual environment.
 usage: python_test.py BUILD
 
-The environment and what CMake built stay in BUILD/python for the next run; install_test.py uses the environment, too.
-Exits with 77, which ctest counts as skipped, if a package is missing."""
+The environment, the sources and what CMake built stay in BUILD/python for the next run; install_test.py uses the
+environment, too. Exits with 77, which ctest counts as skipped, if a package is missing."""
 import os
+import shutil
 import subprocess
 import sys
+import tarfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "python"
 BUILD = Path(sys.argv[1]).resolve()
 FOLDER = BUILD / "python"
-PACKAGE_OF = {"numpy": "python3-numpy", "pybind11": "python3-pybind11", "pytest": "python3-pytest",
+PACKAGE_OF = {"distributed": "python3-distributed", "mypy": "mypy", "numpy": "python3-numpy", "pybind11": "python3-pybind11", "pytest": "python3-pytest",
               "setuptools": "python3-setuptools", "wheel": "python3-wheel", "ensurepip": "python3-venv"}
 FIND_MISSING = f"""
 import importlib.util, os, sysconfig
@@ -37,15 +40,49 @@ def files():
     return {path for path in SOURCE.rglob("*") if path.is_file()}
 
 
+WITHOUT_LAB = """
+import numpy as np
+import edgewise
+assert (edgewise.draw([[0, 0, 0], [0, 1, 0], [1, 0, 0]], [[0, 1, 2]], edgewise.Camera(edgewise.IDENTITY, edgewise.IDENTITY), (8, 8)).payload == 0).any()
+for use in (lambda: __import__("edgewise.lab"), lambda: edgewise.Scene().needs([], (8, 8)), lambda: edgewise.Stream(np.empty((0, 3, 3)), (8, 8)).portable()):
+    try:
+        use()
+    except ImportError as error:
+        assert "libgmp-dev, libfmt-dev" in str(error), error
+    else:
+        raise SystemExit("edgewise.lab is there")
+"""
+
 python = interpreter()
 environment = {**os.environ, "EDGEWISE_BUILD": str(FOLDER / "build"), "EDGEWISE_PROGRAM": str(BUILD / "edgewise"),
                "PYTHONDONTWRITEBYTECODE": "1"}
 venv = FOLDER / "venv"
 before = files()
 subprocess.run([python, "-m", "venv", "--system-site-packages", venv], check=True)
-subprocess.run([venv / "bin" / "pip", "install", "--quiet", "--no-build-isolation", "--no-index", SOURCE], check=True,
-               env=environment)
+
+
+def run(*command, **options):
+    subprocess.run([venv / "bin" / "python", *command], check=True, env={**environment, **options.pop("env", {})}, **options)
+
+
+def install(source, has_fmt, *options):
+    run("-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-index", *options, source,
+        env={"CMAKE_ARGS": f"-DCMAKE_DISABLE_FIND_PACKAGE_fmt={'OFF' if has_fmt else 'ON'}"})
+
+
+archives, without_lab = FOLDER / "archives", FOLDER / "without_lab"
+for folder in (archives, without_lab):
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+run("-c", f"import setuptools.build_meta; setuptools.build_meta.build_sdist({str(archives)!r})", cwd=SOURCE, stdout=subprocess.DEVNULL)
 if written := files() - before:
-    sys.exit(f"pip wrote into the source tree: {', '.join(map(str, written))}")
+    sys.exit(f"the archive's making wrote into the source tree: {', '.join(map(str, written))}")
+(archive,) = archives.iterdir()
+with tarfile.open(archive) as packed:
+    packed.extractall(archives)
+unpacked = archives / archive.name.removesuffix(".tar.gz")
+install(unpacked, False, "--target", without_lab)
+run("-c", WITHOUT_LAB, cwd=without_lab)
+install(unpacked, True)
 sys.exit(subprocess.run([venv / "bin" / "python", "-m", "pytest", "-q", "-p", "no:cacheprovider", ROOT / "tests" / "python"],
                         cwd=FOLDER, env=environment, check=False).returncode)

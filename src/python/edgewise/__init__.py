@@ -18,42 +18,50 @@ from 0 on count; MemoryError. All work that takes long releases the GIL.
 """
 from __future__ import annotations
 
+import copy
 import math
 import warnings
 from os import PathLike, fspath
-from typing import Any, NamedTuple, Sequence, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from .frames import BACKGROUND_ID as BACKGROUND_ID
+from .frames import BLACK as BLACK
+from .frames import DEPTH_CLEAR as DEPTH_CLEAR
+from .frames import Camera as Camera
+from .frames import Frame as Frame
+from .frames import Queries
+from .frames import depth01 as depth01
+from .frames import id_colours as id_colours
+from .frames import matrices as _matrices
+from .frames import metric_depth as metric_depth
+
+if TYPE_CHECKING:
+    from . import lab
 
 __version__: str = _native.VERSION
 BACKENDS: tuple[str, ...] = tuple(_native.BACKENDS)  # all draw the same pictures
-BACKGROUND_ID = 0xFFFFFFFF  # of pixels that no triangle covers, in frames of ids
-BLACK = 0xFF000000
-DEPTH_CLEAR: int = _native.DEPTH_CLEAR  # the depth of pixels that no triangle covers; all others are smaller
 IDENTITY = np.eye(4)
-UNSTABLE: tuple[str, ...] = tuple(_native.UNSTABLE)  # the meanings of 0, 1, ... in Portable.reasons
 
 _Path = Union[str, "PathLike[str]"]
+_Drawn = TypeVar("_Drawn", bound="_Drawable")
 
 
-class Camera(NamedTuple):
-    """Two matrices of shape (4, 4): world space to view space, and view space to clip space."""
-    view: NDArray[np.float64]
-    projection: NDArray[np.float64]
+class Mesh(NamedTuple):
+    """What a scene holds of a mesh: copies of add_mesh()'s arguments, in the types that it states."""
+    positions: NDArray[np.float32]  # shape (n, 3)
+    triangles: NDArray[np.uint32]  # shape (m, 3)
+    colours: NDArray[np.uint32]  # shape (m,)
+    two_sided: bool
 
 
-class Frame(NamedTuple):
-    """What a draw wrote: shape (height, width), or (views, height, width) for several cameras. Screen: as this module says.
-
-    payload: uint32, ids or colours 0xAABBGGRR; None if only depth was drawn. An id is the number of a triangle, counted
-    through the instances in order. Colours in memory are R, G, B, A: payload[..., None].view(np.uint8).
-    depth: uint32, smaller is nearer; depth01() converts it.
-    """
-    payload: NDArray[np.uint32] | None
-    depth: NDArray[np.uint32]
+class Instance(NamedTuple):
+    """Where a scene shows a mesh."""
+    mesh: int
+    matrix: NDArray[np.float64]  # shape (4, 4), from the mesh to the world
 
 
 class Difference(NamedTuple):
@@ -65,58 +73,6 @@ class Difference(NamedTuple):
     masked: int  # pixels of the mask
     differing_in_mask: int
     picture: NDArray[np.uint32]  # grey where equal, red where not
-
-
-class Portable(NamedTuple):
-    """Which pixels show the same triangle in every conformant rasterizer's picture."""
-    reasons: NDArray[np.uint8]  # shape (height, width): 0 if they do; else UNSTABLE[reason] says why they may not
-    counts: dict[str, int]  # pixels by reason
-
-
-class Witness(NamedTuple):
-    """A pixel at which an answer shows an error."""
-    frame: int
-    x: int
-    y: int
-    right: tuple[int, ...]  # ids of triangles; none: background
-    drawn: tuple[int, ...]
-
-
-class Answer(NamedTuple):
-    """One method or precision, and the first pixel that it draws wrong; None: it is enough."""
-    name: str
-    witness: Witness | None
-    wrong_pixels: int  # in the frame of the witness
-
-
-class Question(NamedTuple):
-    """What one stage of a rasterizer needs."""
-    name: str
-    answer: str | None  # the least precise of `answers` that is enough; None: none is
-    proof: str | None  # why it is enough; None: it was seen to be, in so many trials
-    trials: int
-    trial: str  # "pixel"
-    error: str  # what Answer.wrong_pixels counts
-    answers: tuple[Answer, ...]  # from the least precise on
-
-
-class Reach(NamedTuple):
-    """How many triangles a plane of the view volume, or the guard band, concerns."""
-    beyond: int  # triangles with a vertex beyond it
-    crossing: int  # of these, those that do not lie beyond one side of the view as a whole
-
-
-class Needs(NamedTuple):
-    """What `edgewise needs` prints; see its --help."""
-    frames: int
-    pipeline: tuple[Question, ...]  # the least precise pipeline that draws all frames right, by stage
-    orders: int  # of weakening the stages, all tried
-    others: tuple[dict[str, str], ...]  # what other orders lead to: level by stage
-    unlike_scene: int  # pixels of the right pictures that are off the scene's own vertices by over 1/64 px
-    alone: tuple[Question, ...]  # each stage, while the others are exact
-    edges: tuple[Question, ...]
-    reach: dict[str, Reach]  # by plane; empty for streams
-    edge_value_bits: tuple[int, ...]  # of integers that hold all edge values, for 0, 1, ... subpixel bits
 
 
 def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 1.0, 0.0)) -> NDArray[np.float64]:
@@ -174,19 +130,6 @@ def projection_from(projection: ArrayLike, *, z_from_minus_w: bool = False, y_do
     return _native.projection_from(_array(projection, np.float64), z_from_minus_w, y_down, reversed)
 
 
-def depth01(depth: NDArray[np.uint32]) -> NDArray[np.float64]:
-    """Depths of a frame, of any shape, from 0, at the near plane, to 1, at the far plane and on background."""
-    return np.clip((np.asarray(depth).astype(np.float64) - _native.DEPTH_HEAD) / _native.DEPTH_RANGE, 0.0, 1.0)
-
-
-def id_colours(ids: NDArray[np.uint32]) -> NDArray[np.uint32]:
-    """A colour per id, another for each id below 2**24 - 1, as `edgewise render --payload id` writes.
-
-    BACKGROUND_ID is black.
-    """
-    return (np.asarray(ids, np.uint32) + np.uint32(1)) * np.uint32(0x9E3779) & np.uint32(0xFFFFFF) | np.uint32(BLACK)
-
-
 def pixel_hash(frame: Frame) -> int:
     """A number that is the same for the same picture, on every machine; what `edgewise hash` prints. One view only."""
     return _native.pixel_hash(*frame)
@@ -242,8 +185,14 @@ def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | N
 
 
 class _Drawable:
-    """What scenes and streams share. They keep the memory of their draws, so later ones are faster than the first."""
+    """What scenes and streams share. They keep the memory of their draws, so later ones are faster than the first.
+
+    copy.copy(), copy.deepcopy() and pickle make another one that holds the same and draws the same.
+    """
     _native: Any
+
+    def __copy__(self: _Drawn) -> _Drawn:
+        return copy.deepcopy(self, {id(value): value for value in vars(self).values() if value is not self._native})
 
     def first_ids(self) -> NDArray[np.int64]:
         """The id of each instance's first triangle; then the number of triangles. Of a stream, 0 and the number."""
@@ -277,10 +226,11 @@ class _Drawable:
                 raise ValueError("onto has a depth above DEPTH_CLEAR")
         self._native.draw(*_matrices(cameras), None if depth_only else frame.payload, frame.depth, ids, *options, background,
                           clear or onto is None, scissor)
+        frame.has_ids = ids
         return frame
 
 
-class Scene(_Drawable):
+class Scene(Queries, _Drawable):
     """Meshes, their instances, and a light. Clip space and the fronts of triangles are as this module says.
 
     Several threads may use a scene; its draws take turns. Scenes of their own let them draw at the same time.
@@ -338,6 +288,22 @@ class Scene(_Drawable):
         """The direction towards the light, in world space: three numbers, finite, and of any length but 0."""
         self._native.set_light(*direction)
 
+    @property
+    def meshes(self) -> tuple[Mesh, ...]:
+        """The meshes by number, copied."""
+        return tuple(Mesh(mesh["positions"], mesh["triangles"], mesh["colours"], bool(mesh["flags"].size and (mesh["flags"] & 1).all()))
+                     for mesh in self._native.meshes())
+
+    @property
+    def instances(self) -> tuple[Instance, ...]:
+        """The instances by number."""
+        return tuple(Instance(*instance) for instance in self._native.instances())
+
+    @property
+    def light(self) -> NDArray[np.float32]:
+        """The direction towards the light, in world space, shape (3,)."""
+        return self._native.light()
+
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The lowest and the highest corner, shape (3,), of the box around all instances. Infinite if it is empty."""
         return self._native.bounds()
@@ -371,18 +337,20 @@ class Scene(_Drawable):
         return self._draw(camera if several else [camera], several, size, (first_id, cull, shade, threads, backend), ids,
                           background, scissor, onto, clear, depth_only)
 
-    def barycentrics(self, frame: Frame, camera: Camera, *, first_id: int = 0, cull: str = "none",
+    def barycentrics(self, frame: Frame, camera: Camera | Sequence[Camera], *, first_id: int = 0, cull: str = "none",
                      threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Perspective-correct coordinates of the triangle's point that each pixel of a frame of ids shows.
 
-        Returns uv, shape (height, width, 2), and distance along the view direction, shape (height, width). A pixel's value
+        Returns uv, shape (height, width, 2), and distance along the view direction, shape (height, width); for a frame of
+        several views, and as many cameras, (views, height, width, 2) and (views, height, width). A pixel's value
         of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0; their error is below
         2**-25 + 2**-47, that of the distance below 2**-24 + 2**-48 of it. The distance is w in clip space, so a projection
         with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background: 0 and infinity.
         ValueError if the frame shows something else than this scene, seen by this camera, with this culling. If it was drawn
         over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
         """
-        return self._native.barycentrics(*_matrices([camera]), *frame, first_id, cull, threads)
+        cameras = [camera] if isinstance(camera, Camera) else camera
+        return self._native.barycentrics(*_matrices(cameras), *frame, first_id, cull, threads)
 
     def pixels_per_instance(self, frame: Frame) -> NDArray[np.uint32]:
         """The number of pixels of each instance in a frame as of pixels_per_triangle(): shape (instances,), or (views,
@@ -403,25 +371,14 @@ class Scene(_Drawable):
         return bool(seen[0]) if low.ndim == 1 else seen
 
     def needs(self, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
-              displacement: float | None = None, threads: int = 1) -> Needs:
-        """The least precise pipeline that draws these frames right, as `edgewise needs` finds it. Takes seconds.
-
-        Frames must have a perspective projection and an affine view. displacement: pixels per 10**6 edge crossings that
-        rounding may move; by default as many as with 8 subpixel bits.
-        """
-        return _needs(self._native.needs(*_matrices([cameras] if isinstance(cameras, Camera) else cameras), *size, cull,
-                                         displacement, threads))
+              displacement: float | None = None, threads: int = 1) -> lab.Needs:
+        """edgewise.lab.needs() of this scene."""
+        return _lab().needs(self, cameras, size, cull=cull, displacement=displacement, threads=threads)
 
     def portable(self, camera: Camera, size: tuple[int, int], *, cull: str = "none", bits: int = 8, ulps: int = 2,
-                 guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> Portable:
-        """The pixels that rasterizers which follow Direct3D, Vulkan or WebGPU may draw differently, as `edgewise portable`
-        finds them.
-
-        The camera must have a perspective projection and an affine view. bits: of subpixel positions, at least. ulps: error
-        of the viewport transform. guard_band: how far triangles may reach beyond the picture, in px. depth: d16_unorm,
-        d24_unorm or d32_sfloat.
-        """
-        return _portable(self._native.portable(*_matrices([camera]), *size, cull, bits, ulps, guard_band, depth, threads))
+                 guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> lab.Portable:
+        """edgewise.lab.portable() of this scene."""
+        return _lab().portable(self, camera, size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band, depth=depth, threads=threads)
 
 
 class Stream(_Drawable):
@@ -448,6 +405,16 @@ class Stream(_Drawable):
         """Width, height in pixels of the image that the triangles are made for."""
         return self._native.size()
 
+    @property
+    def vertices(self) -> NDArray[np.float32]:
+        """The vertices, as the constructor takes them, copied."""
+        return self._native.arrays()[0]
+
+    @property
+    def colours(self) -> NDArray[np.uint32]:
+        """The triangles' colours 0xAABBGGRR, shape (n,), copied."""
+        return self._native.arrays()[1]
+
     def draw(self, size: tuple[int, int] | None = None, *, ids: bool = False, first_id: int = 0, cull: str = "none",
              threads: int = 1, backend: str = "tiled", background: int | None = None,
              scissor: tuple[int, int, int, int] | None = None, onto: Frame | None = None, clear: bool = False,
@@ -463,15 +430,15 @@ class Stream(_Drawable):
         return self._native.barycentrics(*_matrices([]), *frame, first_id, cull, threads)
 
     def needs(self, size: tuple[int, int] | None = None, *, cull: str = "none", displacement: float | None = None,
-              threads: int = 1) -> Needs:
-        """As Scene.needs(), of one frame."""
-        return _needs(self._native.needs(*_matrices([]), *(self.size if size is None else size), cull, displacement, threads))
+              threads: int = 1) -> lab.Needs:
+        """edgewise.lab.needs() of this stream."""
+        return _lab().needs(self, (), self.size if size is None else size, cull=cull, displacement=displacement, threads=threads)
 
     def portable(self, size: tuple[int, int] | None = None, *, cull: str = "none", bits: int = 8, ulps: int = 2,
-                 guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> Portable:
-        """As Scene.portable()."""
-        return _portable(self._native.portable(*_matrices([]), *(self.size if size is None else size), cull, bits, ulps, guard_band, depth,
-                                               threads))
+                 guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> lab.Portable:
+        """edgewise.lab.portable() of this stream."""
+        return _lab().portable(self, (), self.size if size is None else size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band,
+                               depth=depth, threads=threads)
 
 
 def draw(positions: ArrayLike, triangles: ArrayLike, camera: Camera | Sequence[Camera], size: tuple[int, int],
@@ -483,15 +450,13 @@ def draw(positions: ArrayLike, triangles: ArrayLike, camera: Camera | Sequence[C
     return Scene(positions, triangles).draw(camera, size, **{"ids": True, **options})
 
 
+def _lab() -> Any:
+    from . import lab  # not with the package: it may not have been built
+    return lab
+
+
 def _array(values: ArrayLike, dtype: Any) -> NDArray[Any]:
     return np.asarray(values, dtype, order="C")
-
-
-def _matrices(cameras: Sequence[Camera]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    if not all(isinstance(camera, Camera) for camera in cameras):
-        raise ValueError("a camera must be an edgewise.Camera")
-    views, projections = (np.array([camera[i] for camera in cameras], np.float64) for i in (0, 1))
-    return views, projections
 
 
 def _indices(triangles: ArrayLike) -> NDArray[np.uint32]:
@@ -532,19 +497,3 @@ def _readable(path: _Path) -> _Path:
     """Raises FileNotFoundError, PermissionError, ... as Python does."""
     with open(path, "rb"):
         return path
-
-
-def _needs(found: tuple) -> Needs:
-    frames, pipeline, orders, others, unlike_scene, alone, edges, reach, bits = found
-
-    def questions(all_of: list) -> tuple[Question, ...]:
-        return tuple(Question(*facts, tuple(Answer(name, witness and Witness(*witness), wrong) for name, witness, wrong in
-                                            answers)) for *facts, answers in all_of)
-
-    return Needs(frames, questions(pipeline), orders, tuple(others), unlike_scene, questions(alone), questions(edges),
-                 {plane: Reach(*counts) for plane, counts in reach.items()}, tuple(bits))
-
-
-def _portable(reasons: NDArray[np.uint8]) -> Portable:
-    counts = np.bincount(reasons.ravel(), minlength=len(UNSTABLE))
-    return Portable(reasons, dict(zip(UNSTABLE, map(int, counts))))

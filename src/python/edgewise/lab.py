@@ -1,0 +1,108 @@
+"""What the laboratory says of a scene or a stream. Scene.needs(), Scene.portable() and those of Stream call these functions.
+
+The module is there if GMP and fmt were found when the package was built; else its import fails, and says so.
+"""
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .frames import Camera, matrices
+
+try:
+    from . import _lab
+except ImportError as error:
+    raise ImportError("edgewise.lab needs GMP and fmt, also when edgewise is built: install them (Debian: libgmp-dev, libfmt-dev), "
+                      f"then edgewise again ({error})") from error
+
+UNSTABLE: tuple[str, ...] = tuple(_lab.UNSTABLE)  # the meanings of 0, 1, ... in Portable.reasons
+
+
+class Portable(NamedTuple):
+    """Which pixels show the same triangle in every conformant rasterizer's picture."""
+    reasons: NDArray[np.uint8]  # shape (height, width): 0 if they do; else UNSTABLE[reason] says why they may not
+    counts: dict[str, int]  # pixels by reason
+
+
+class Witness(NamedTuple):
+    """A pixel at which an answer shows an error."""
+    frame: int
+    x: int
+    y: int
+    right: tuple[int, ...]  # ids of triangles; none: background
+    drawn: tuple[int, ...]
+
+
+class Answer(NamedTuple):
+    """One method or precision, and the first pixel that it draws wrong; None: it is enough."""
+    name: str
+    witness: Witness | None
+    wrong_pixels: int  # in the frame of the witness
+
+
+class Question(NamedTuple):
+    """What one stage of a rasterizer needs."""
+    name: str
+    answer: str | None  # the least precise of `answers` that is enough; None: none is
+    proof: str | None  # why it is enough; None: it was seen to be, in so many trials
+    trials: int
+    trial: str  # "pixel"
+    error: str  # what Answer.wrong_pixels counts
+    answers: tuple[Answer, ...]  # from the least precise on
+
+
+class Reach(NamedTuple):
+    """How many triangles a plane of the view volume, or the guard band, concerns."""
+    beyond: int  # triangles with a vertex beyond it
+    crossing: int  # of these, those that do not lie beyond one side of the view as a whole
+
+
+class Needs(NamedTuple):
+    """What `edgewise needs` prints; see its --help."""
+    frames: int
+    pipeline: tuple[Question, ...]  # the least precise pipeline that draws all frames right, by stage
+    orders: int  # of weakening the stages, all tried
+    others: tuple[dict[str, str], ...]  # what other orders lead to: level by stage
+    unlike_scene: int  # pixels of the right pictures that are off the scene's own vertices by over 1/64 px
+    alone: tuple[Question, ...]  # each stage, while the others are exact
+    edges: tuple[Question, ...]
+    reach: dict[str, Reach]  # by plane; empty for streams
+    edge_value_bits: tuple[int, ...]  # of integers that hold all edge values, for 0, 1, ... subpixel bits
+
+
+def needs(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
+          displacement: float | None = None, threads: int = 1) -> Needs:
+    """The least precise pipeline that draws these frames of a scene right, or the frame of a stream, which has no cameras.
+
+    As `edgewise needs` finds it, in seconds. Cameras must have a perspective projection and an affine view. displacement:
+    pixels per 10**6 edge crossings that rounding may move; by default as many as with 8 subpixel bits.
+    """
+    return _needs(_lab.needs(drawable._native, *matrices([cameras] if isinstance(cameras, Camera) else cameras), *size, cull,
+                             displacement, threads))
+
+
+def portable(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none", bits: int = 8,
+             ulps: int = 2, guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> Portable:
+    """The pixels that rasterizers which follow Direct3D, Vulkan or WebGPU may draw differently, as `edgewise portable` finds them.
+
+    The camera of a scene must have a perspective projection and an affine view; a stream has none. bits: of subpixel
+    positions, at least. ulps: error of the viewport transform. guard_band: how far triangles may reach beyond the picture, in
+    px. depth: d16_unorm, d24_unorm or d32_sfloat.
+    """
+    reasons = _lab.portable(drawable._native, *matrices([cameras] if isinstance(cameras, Camera) else cameras), *size, cull, bits, ulps,
+                            guard_band, depth, threads)
+    counts = np.bincount(reasons.ravel(), minlength=len(UNSTABLE))
+    return Portable(reasons, dict(zip(UNSTABLE, map(int, counts))))
+
+
+def _needs(found: tuple) -> Needs:
+    frames, pipeline, orders, others, unlike_scene, alone, edges, reach, bits = found
+
+    def questions(all_of: list) -> tuple[Question, ...]:
+        return tuple(Question(*facts, tuple(Answer(name, witness and Witness(*witness), wrong) for name, witness, wrong in
+                                            answers)) for *facts, answers in all_of)
+
+    return Needs(frames, questions(pipeline), orders, tuple(others), unlike_scene, questions(alone), questions(edges),
+                 {plane: Reach(*counts) for plane, counts in reach.items()}, tuple(bits))

@@ -1,0 +1,180 @@
+"""Copies, pickles and getters: what a scene, stream or camera holds survives."""
+import copy
+import gc
+import multiprocessing
+import pickle
+
+import numpy as np
+import pytest
+
+import edgewise
+from support import ASPECT, CAMERA, MOVED, SIZE, same, scene, stream, triangles
+
+QUADS = "".join(f"v {x} {y} {z}\n" for x, y, z in ((0, 0, 0), (1, 0, 0.2), (1, 1, 0), (0, 1, 0.3), (2, 0, 0), (2, 1, 0.4)))
+COPIES = {"copy": copy.copy, "deepcopy": copy.deepcopy,
+          **{f"protocol {p}": lambda drawn, p=p: pickle.loads(pickle.dumps(drawn, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)}}
+
+
+class Named(edgewise.Scene):
+    """A user's class with more to remember."""
+    __slots__ = ("slot",)
+    note = None
+
+
+def of_file(tmp_path, offset):
+    """Bent quads with one normal each, coloured by a material; far from the origin, the reader places them by a translation."""
+    lines = [line.split() for line in QUADS.splitlines()]
+    (tmp_path / "a.mtl").write_text("newmtl a\nKd 1 0.5 0.1\n")
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl a\n" + "".join(f"v {float(x) + offset} {y} {z}\n" for _, x, y, z in lines) +
+                                    "f 1 2 3 4\nf 2 5 6 3\nf 1 2 6\n")
+    return edgewise.Scene.read_obj(tmp_path / "a.obj")
+
+
+def lit_scene():
+    """All that can be put in: meshes with and without colours, a two-sided one, an empty one, moved vertices, a light."""
+    made = scene()
+    positions, indices, colours = triangles(30, 5)
+    made.add_instance(made.add_mesh(positions, indices, colours=colours, two_sided=True), MOVED)
+    made.add_instance(made.add_mesh(np.empty((0, 3)), np.empty((0, 3), np.uint32)))
+    made.add_instance(made.add_mesh(positions, indices[:7]), np.diag([1, 2, -1, 1]))
+    made.set_positions(0, triangles(60, 9)[0])
+    made.set_instance(1, np.diag([-0.5, 1, 1, 1]))
+    made.set_light((-1, 0.5, 0.25))
+    return made
+
+
+def pictures(drawn):
+    if isinstance(drawn, edgewise.Stream):
+        return [drawn.draw(cull=cull, ids=ids) for cull in ("none", "back") for ids in (False, True)]
+    cameras = [CAMERA, drawn.camera(ASPECT)]
+    return [drawn.draw(cameras, SIZE, cull=cull, ids=ids) for cull in ("none", "back") for ids in (False, True)]
+
+
+def hashes(drawn):
+    return [edgewise.pixel_hash(edgewise.Frame(*planes)) for frame in pictures(drawn)
+            for planes in (zip(*frame) if frame.depth.ndim == 3 else [frame])]
+
+
+@pytest.fixture(params=["scene", "lit", "near file", "far file", "stream", "nothing", "65,536 triangles"])
+def drawn(request, tmp_path):
+    if request.param == "65,536 triangles":  # with clusters
+        positions, indices, colours = triangles(1 << 16)
+        return edgewise.Scene(positions * 0.1 + np.repeat(positions[::3], 3, axis=0), indices, colours=colours)
+    return {"scene": scene, "lit": lit_scene, "near file": lambda: of_file(tmp_path, 0), "far file": lambda: of_file(tmp_path, 4e6),
+            "stream": stream, "nothing": edgewise.Scene}[request.param]()
+
+
+@pytest.mark.parametrize("how", COPIES)
+def test_a_copy_draws_the_same_and_is_another(drawn, how):
+    before = hashes(drawn)
+    other = COPIES[how](drawn)
+    assert type(other) is type(drawn) and hashes(other) == before
+    assert list(other.first_ids()) == list(drawn.first_ids())
+    if isinstance(other, edgewise.Scene):
+        other.add_instance(other.add_mesh(*triangles(5)[:2]))
+        if drawn.instances:
+            other.set_instance(0, MOVED)
+            other.set_positions(0, drawn.meshes[0].positions[::-1])
+        other.set_light((0, 0, 1))
+        assert hashes(drawn) == before != hashes(other)
+
+
+@pytest.mark.parametrize("how", [how for how in COPIES if how not in ("protocol 0", "protocol 1")])  # which know no slots
+def test_a_subclass_keeps_what_it_added(how):
+    named = Named(*triangles()[:2])
+    named.note, named.slot = ["a"], "b"
+    other = COPIES[how](named)
+    assert type(other) is Named and (other.note, other.slot) == (["a"], "b") and hashes(other) == hashes(named)
+    assert (other.note is named.note) == (how == "copy")
+    other.remove_instance(0)
+    assert len(named.instances) == 1
+
+
+def test_scenes_in_containers_stay_one_object():
+    one = scene()
+    first, second = copy.deepcopy([one, one])
+    assert first is second is not one
+
+
+def test_getters_give_what_was_put_in():
+    made = lit_scene()
+    positions, indices, colours = triangles(30, 5)
+    mesh = made.meshes[2]
+    assert [len(m.triangles) for m in made.meshes] == [60, 20, 30, 0, 7] and [m.two_sided for m in made.meshes] == [0, 0, 1, 0, 0]
+    assert np.array_equal(mesh.positions, positions) and mesh.positions.dtype == np.float32
+    assert np.array_equal(mesh.triangles, indices) and mesh.triangles.dtype == np.uint32
+    assert np.array_equal(mesh.colours, colours) and mesh.colours.dtype == np.uint32
+    assert np.array_equal(made.meshes[0].positions, triangles(60, 9)[0])
+    assert [instance.mesh for instance in made.instances] == [0, 1, 0, 2, 3, 4]
+    assert np.array_equal(made.instances[1].matrix, np.diag([-0.5, 1, 1, 1])) and np.array_equal(made.instances[3].matrix, MOVED)
+    assert list(made.light) == [-1, 0.5, 0.25]
+    again = edgewise.Scene()
+    for m in made.meshes:
+        again.add_mesh(m.positions, m.triangles, colours=m.colours, two_sided=m.two_sided)
+    for instance in made.instances:
+        again.add_instance(*instance)
+    again.set_light(made.light)
+    assert hashes(again) == hashes(made)
+
+
+def test_getters_give_copies():
+    made, flat = scene(), stream()
+    before = hashes(made), hashes(flat)
+    for array in (*made.meshes[0][:3], made.instances[0].matrix, made.light, flat.vertices, flat.colours):
+        array[:] = 0
+    assert (hashes(made), hashes(flat)) == before
+    again = edgewise.Stream(flat.vertices, flat.size, colours=flat.colours)
+    assert flat.vertices.shape == (40, 3, 3) and flat.colours.shape == (40,) and hashes(again) == hashes(flat)
+    meshes = made.meshes
+    del made
+    gc.collect()
+    assert np.array_equal(meshes[0].positions, triangles(60, 1)[0])
+
+
+def test_a_files_instance_has_its_place(tmp_path):
+    far = of_file(tmp_path, 4e6)
+    (mesh,), (instance,) = far.meshes, far.instances
+    world = mesh.positions @ instance.matrix[:3, :3].T + instance.matrix[:3, 3]
+    low, high = far.bounds()
+    assert np.allclose(world.min(axis=0), low, rtol=0, atol=1e-6) and np.allclose(world.max(axis=0), high, rtol=0, atol=1e-6)
+    assert low[0] == 4e6 and high[0] == 4e6 + 2
+
+
+def test_a_damaged_state_is_an_error():
+    drawable, (state,) = scene()._native.__reduce__()
+    for damage, text in (({"light": [0, 0, 0]}, "light"), ({"instances": [(7, np.eye(4))]}, "mesh 7 of 2"),
+                         ({"meshes": [{**state["meshes"][0], "positions": np.zeros((1, 3), np.float32)}]}, "names vertex"),
+                         ({"meshes": [{**state["meshes"][0], "normals": np.zeros(3, np.float32)}]}, "normals must"), ({"light": None}, "")):
+        with pytest.raises((ValueError, RuntimeError), match=text):
+            drawable({**state, **damage})
+
+
+def test_cameras_compare_and_hash_by_value():
+    one = edgewise.Camera(CAMERA.view.copy(), CAMERA.projection.tolist())
+    other = edgewise.Camera(CAMERA.view + np.eye(4) * 1e-9, CAMERA.projection)
+    zero, negative = (edgewise.Camera(np.zeros((4, 4)), sign * np.zeros((4, 4))) for sign in (1, -1))
+    assert one == CAMERA and not one != CAMERA and hash(one) == hash(CAMERA)
+    assert other != CAMERA and not other == CAMERA and hash(other) != hash(CAMERA)
+    assert zero == negative and hash(zero) == hash(negative)
+    assert CAMERA != tuple(CAMERA) and CAMERA != 5 and tuple(CAMERA) != CAMERA
+    assert {CAMERA: "a", other: "b"}[one] == "a" and one in [other, CAMERA] and len({one, other, CAMERA}) == 2
+    view, projection = pickle.loads(pickle.dumps(CAMERA))
+    assert edgewise.Camera(view, projection) == copy.deepcopy(CAMERA) == CAMERA
+    assert edgewise.Camera(view[:3], projection) != CAMERA
+
+
+def test_frames_pickle():
+    frame = scene().draw(CAMERA, SIZE, ids=True)
+    other = pickle.loads(pickle.dumps(frame))
+    assert type(other) is edgewise.Frame and same(other, frame) and other.has_ids is True
+
+
+def hashes_in_a_process(arguments):
+    drawn, camera = arguments
+    return edgewise.pixel_hash(drawn.draw(camera, SIZE, threads=2) if isinstance(drawn, edgewise.Scene) else drawn.draw(threads=2))
+
+
+def test_a_pool_draws_scenes_and_streams():
+    work = [(lit_scene(), CAMERA), (scene(), edgewise.Camera(MOVED, CAMERA.projection)), (stream(), None)] * 2
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        assert pool.map(hashes_in_a_process, work) == list(map(hashes_in_a_process, work))
