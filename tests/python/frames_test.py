@@ -188,7 +188,8 @@ def frame_of(drawn, cameras=CAMERA, **options):
 BAD = {
     "attribute of another length": ("attribute: that of mesh 0 has the shape", lambda: scene().interpolate(
         frame_of(scene()), [np.zeros((3, 2)), np.zeros((60, 2))], CAMERA)),
-    "one attribute for two meshes": ("1 arrays given instead of 2", lambda: scene().interpolate(frame_of(scene()), np.zeros((180, 2)), CAMERA)),
+    "one attribute for two meshes": ("1 arrays given instead of 2", lambda: scene().interpolate(
+        frame_of(scene()), np.zeros((180, 2)), CAMERA)),
     "attributes of two widths": ("mesh 1 has the shape", lambda: scene().interpolate(
         frame_of(scene()), [np.zeros((180, 2)), np.zeros((60, 3))], CAMERA)),
     "complex attribute": ("must be numbers, not complex128", lambda: scene().interpolate(

@@ -13,10 +13,10 @@ def test_the_examples_pass_mypy(tmp_path):
         for i, block in enumerate(re.findall(r"^```python\n(.*?)^```", readme.read_text(), re.MULTILINE | re.DOTALL)):
             examples[f"{readme.parent.name.replace('-', '_')}_{i}"] = block
     assert len(examples) > 4
-    examples["wrong"] = "import edgewise\nedgewise.Scene().draw('camera', (4, 4))\nedgewise.Scene().meshes[0].positions.no_such\n"
+    examples["wrong"] = "import edgewise\nscene = edgewise.Scene()\nscene.draw('camera', (4, 4))\nscene.meshes[0].positions.no_such\n"
     for name, text in examples.items():
         (tmp_path / f"example_{name}.py").write_text(text)
-    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(Path(sys.prefix) / "mypy"), "."], cwd=tmp_path, capture_output=True,
-                          text=True, check=False)
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(Path(sys.prefix) / "mypy"), "."]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     errors = [line for line in done.stdout.splitlines() if "error:" in line]
     assert len(errors) == 2 and all(line.startswith("example_wrong.py") for line in errors), done.stdout + done.stderr

@@ -226,7 +226,8 @@ class _Drawable:
                 raise ValueError("onto has a depth above DEPTH_CLEAR")
         self._native.draw(*_matrices(cameras), None if depth_only else frame.payload, frame.depth, ids, *options, background,
                           clear or onto is None, scissor)
-        frame.has_ids = ids
+        if not depth_only:
+            frame.has_ids = ids
         return frame
 
 

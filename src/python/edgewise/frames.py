@@ -35,7 +35,7 @@ class Camera(NamedTuple):
 
 
 class _Planes(NamedTuple):
-    payload: NDArray[np.uint32] | None
+    payload: NDArray[np.uint32]  # or None; a type that says so would burden all who draw payloads
     depth: NDArray[np.uint32]
 
 
@@ -84,15 +84,15 @@ def metric_depth(frame: Frame, camera: Camera | Sequence[Camera]) -> NDArray[np.
     gives distances with an error relative to them, and takes longer.
     """
     depth = np.asarray(frame.depth)
-    cameras = [camera] if isinstance(camera, Camera) else camera
-    if depth.shape[:-2] != (() if isinstance(camera, Camera) else (len(cameras),)):
-        raise ValueError(f"depth has the shape {depth.shape}, for {len(cameras)} cameras")
+    views, projections = matrices([camera] if isinstance(camera, Camera) else camera)
+    if depth.shape[:-2] != (() if isinstance(camera, Camera) else (len(views),)):
+        raise ValueError(f"depth has the shape {depth.shape}, for {len(views)} cameras")
     z = depth01(depth)
     result = np.empty(depth.shape)
     height, width = depth.shape[-2:]
     x, y = (2 * np.arange(width) + 1) / width - 1, 1 - (2 * np.arange(height)[:, None] + 1) / height
     stacked, distances = z.reshape(-1, height, width), result.reshape(-1, height, width)
-    for i, (view, projection) in enumerate(zip(*matrices(cameras))):
+    for i, (view, projection) in enumerate(zip(views, projections)):
         to_w, to_z = (projection @ view)[[3, 2], :3]
         if to_w.any():  # w is the distance from the camera, but for scale
             try:
@@ -179,15 +179,15 @@ class Queries:
                 raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {wanted}")
         drawn, triangles, instances = self._shown(frame)
         uv, _ = self.barycentrics(frame, camera, cull=cull, threads=threads)
-        dtype = np.result_type(np.float32, *arrays)
-        result = np.full((*drawn.shape, *(arrays[0].shape[1:] if arrays else ())), np.nan, dtype)
+        rest = arrays[0].shape[1:] if arrays else ()
+        result = np.full((*drawn.shape, *rest), np.nan, np.result_type(np.float32, *arrays))
         if triangles.size:
             first_vertex = np.cumsum([0, *(len(array) for array in arrays)])
             first_triangle = np.cumsum([0, *(len(mesh.triangles) for mesh in meshes)])
             of_instance = np.array([mesh for mesh, _ in self.instances])[instances]
             corners = np.concatenate([mesh.triangles for mesh in meshes])[triangles + first_triangle[of_instance]]
-            values = np.concatenate(arrays).astype(dtype)[corners + first_vertex[of_instance][:, None]]
-            u, v = uv[drawn].T.astype(dtype)
+            values = np.concatenate(arrays)[corners + first_vertex[of_instance][:, None]]
+            u, v = uv[drawn].T.astype(np.float64)  # the weights add up to 1 exactly
             result[drawn] = np.einsum("ip,pi...->p...", np.stack([1 - u - v, u, v]), values)
         return result
 
