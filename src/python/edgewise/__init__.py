@@ -374,12 +374,12 @@ class Scene(Queries, _Drawable):
     def needs(self, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
               displacement: float | None = None, threads: int = 1) -> lab.Needs:
         """edgewise.lab.needs() of this scene."""
-        return _lab().needs(self, cameras, size, cull=cull, displacement=displacement, threads=threads)
+        return _laboratory().needs(self, cameras, size, cull=cull, displacement=displacement, threads=threads)
 
     def portable(self, camera: Camera, size: tuple[int, int], *, cull: str = "none", bits: int = 8, ulps: int = 2,
                  guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> lab.Portable:
         """edgewise.lab.portable() of this scene."""
-        return _lab().portable(self, camera, size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band, depth=depth, threads=threads)
+        return _laboratory().portable(self, camera, size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band, depth=depth, threads=threads)
 
 
 class Stream(_Drawable):
@@ -433,12 +433,12 @@ class Stream(_Drawable):
     def needs(self, size: tuple[int, int] | None = None, *, cull: str = "none", displacement: float | None = None,
               threads: int = 1) -> lab.Needs:
         """edgewise.lab.needs() of this stream."""
-        return _lab().needs(self, (), self.size if size is None else size, cull=cull, displacement=displacement, threads=threads)
+        return _laboratory().needs(self, (), self.size if size is None else size, cull=cull, displacement=displacement, threads=threads)
 
     def portable(self, size: tuple[int, int] | None = None, *, cull: str = "none", bits: int = 8, ulps: int = 2,
                  guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> lab.Portable:
         """edgewise.lab.portable() of this stream."""
-        return _lab().portable(self, (), self.size if size is None else size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band,
+        return _laboratory().portable(self, (), self.size if size is None else size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band,
                                depth=depth, threads=threads)
 
 
@@ -451,7 +451,7 @@ def draw(positions: ArrayLike, triangles: ArrayLike, camera: Camera | Sequence[C
     return Scene(positions, triangles).draw(camera, size, **{"ids": True, **options})
 
 
-def _lab() -> Any:
+def _laboratory() -> Any:
     from . import lab  # not with the package: it may not have been built
     return lab
 
