@@ -25,6 +25,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/scene.h"
 #include "python/arrays.h"
+#include "python/gil.h"
 
 namespace edgewise::python {
 
@@ -63,7 +64,7 @@ auto with_file(F&& f) {
 template <typename F>
 auto with_file_only(F&& f) {
   return with_file([&] {
-    const py::gil_scoped_release released;
+    const Released released;
     return f();
   });
 }
@@ -76,7 +77,7 @@ class Drawn {
   // Calls f(drawable) without the GIL, so f touches nothing of Python's.
   template <typename F>
   auto use(F&& f) {
-    const py::gil_scoped_release released;
+    const Released released;
     const std::lock_guard lock(busy_);
     return f(drawable_);
   }

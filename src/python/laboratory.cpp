@@ -52,7 +52,7 @@ py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int
                        found.add(lab::with_camera(drawable, {width, height}), options);
                      });
   {
-    const py::gil_scoped_release released;
+    const Released released;
     least = found.least_precise();
   }
   py::dict reach;

@@ -113,7 +113,7 @@ PYBIND11_MODULE(_native, m) {
   m.def("pixel_hash", [](const OptionalArray& payload, const py::array& depth) {
     const Frames frames(payload, depth, false);
     if (frames.is_stack) throw std::invalid_argument("a hash is that of a frame of one view");
-    const py::gil_scoped_release released;
+    const Released released;
     (void)checked(frames[0], Execution{});
     return hash_of(frames[0]);
   });
@@ -121,7 +121,7 @@ PYBIND11_MODULE(_native, m) {
     const Frames frames(payload, depth, false);
     std::vector<std::vector<std::uint32_t>> views;
     {
-      const py::gil_scoped_release released;
+      const Released released;
       for (std::size_t i = 0; i < frames.views; ++i) views.push_back(visible_triangles(frames[i]));
     }
     py::list arrays;
