@@ -15,6 +15,7 @@
 #include "edgewise/camera.h"
 #include "edgewise/contract.h"
 #include "edgewise/hash.h"
+#include "edgewise/limits.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/scene.h"
 #include "edgewise/tri_file.h"
@@ -85,6 +86,8 @@ PYBIND11_MODULE(_native, m) {
   using OptionalArray = std::optional<py::array>;
 
   m.attr("VERSION") = EDGEWISE_VERSION;
+  m.attr("PYBIND11") = py::make_tuple(PYBIND11_VERSION_MAJOR, PYBIND11_VERSION_MINOR);
+  m.attr("MAX_THREADS") = kMaxThreads;
   m.attr("DEPTH_HEAD") = contract::kDepthHead;
   m.attr("DEPTH_RANGE") = contract::kDepthRange;
   m.attr("DEPTH_CLEAR") = contract::kDepthClear;
