@@ -23,16 +23,16 @@ def refuse(value: Any, name: str, allowed: str, error: type[Exception] = TypeErr
 
 
 def integer(value: Any, name: str, low: int = 0, high: int = INT_MAX) -> int:
-    allowed = f"an integer from {low} to {high}"
-    try:
-        if isinstance(value, bool):
-            raise TypeError
-        number = operator.index(value)
-    except TypeError:
-        refuse(value, name, allowed)
-    if not low <= number <= high:
-        refuse(value, name, allowed, ValueError)
-    return number
+    error: type[Exception] = TypeError
+    if not isinstance(value, bool):
+        try:
+            number = operator.index(value)
+            if low <= number <= high:
+                return number
+            error = ValueError
+        except TypeError:
+            pass
+    refuse(value, name, f"an integer from {low} to {high}", error)
 
 
 def integers(values: Any, name: str, count: int, low: int, high: int) -> tuple[int, ...]:
@@ -100,12 +100,13 @@ def array(values: Any, name: str, dtype: Any) -> NDArray[Any]:
         refuse(values, name, allowed + " without a mask", ValueError)
     if given.size and (given.dtype.kind not in kinds or given.dtype.itemsize > 8):
         refuse(values if given.dtype == object else given.dtype, name, allowed, ValueError)
+    if not given.size or given.dtype == dtype:
+        return np.asarray(given, dtype, order="C")
     with np.errstate(over="ignore", invalid="ignore"):
         made = np.asarray(given, dtype, order="C")
-        if given.size and given.dtype != dtype:
-            lost = np.isinf(made) != np.isinf(given) if given.dtype.kind == "f" else made.astype(np.int64) != given
-            if lost.any():
-                refuse(given[lost][0], name, f"in the range of {made.dtype}", ValueError)
+        lost = np.isinf(made) != np.isinf(given) if given.dtype.kind == "f" else made.astype(np.int64) != given
+    if lost.any():
+        refuse(given[lost][0], name, f"in the range of {made.dtype}", ValueError)
     return made
 
 
