@@ -6,6 +6,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -25,6 +26,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/scene.h"
 #include "python/arrays.h"
+#include "python/gil.h"
 
 namespace edgewise::python {
 
@@ -63,7 +65,7 @@ auto with_file(F&& f) {
 template <typename F>
 auto with_file_only(F&& f) {
   return with_file([&] {
-    const py::gil_scoped_release released;
+    const Released released;
     return f();
   });
 }
@@ -76,7 +78,7 @@ class Drawn {
   // Calls f(drawable) without the GIL, so f touches nothing of Python's.
   template <typename F>
   auto use(F&& f) {
-    const py::gil_scoped_release released;
+    const Released released;
     const std::lock_guard lock(busy_);
     return f(drawable_);
   }
@@ -84,25 +86,33 @@ class Drawn {
   auto use_scene(F&& f) {
     return use([&](Drawable& drawable) { return f(std::get<Scene>(drawable)); });
   }
-  // Calls f(drawable, view) for each view, seen by its camera.
+  // Calls f(drawable, view) for each view, seen by its camera. After each turn of views, signals are handled,
+  // and progress(number of views in the turn) is called, which may use the drawable as other threads may.
   template <typename F>
-  void for_each_view(const std::vector<CameraMatrices>& cameras, std::size_t views, F&& f) {
-    use([&](Drawable& drawable) {
-      auto* const scene = std::get_if<Scene>(&drawable);
-      if (scene != nullptr && cameras.size() != views)
-        throw std::invalid_argument(std::to_string(cameras.size()) + " cameras for " + std::to_string(views) +
-                                    " views");
-      for (std::size_t i = 0; i < views; ++i) {
-        if (scene != nullptr) scene->matrices = cameras[i];
-        f(drawable, i);
-      }
-    });
+  void for_each_view(const std::vector<CameraMatrices>& cameras, std::size_t views, F&& f,
+                     const py::object& progress = py::none()) {
+    if (std::holds_alternative<Scene>(drawable_) && cameras.size() != views)
+      throw std::invalid_argument(std::to_string(cameras.size()) + " cameras for " + std::to_string(views) +
+                                  " views");
+    for (std::size_t next = 0; next < views;) {
+      const std::size_t first = next;
+      use([&](Drawable& drawable) {
+        auto* const scene = std::get_if<Scene>(&drawable);
+        const auto end = std::chrono::steady_clock::now() + kTurn;
+        do {
+          if (scene != nullptr) scene->matrices = cameras[next];
+          f(drawable, next++);
+        } while (next < views && std::chrono::steady_clock::now() < end);
+      });
+      handle_signals();
+      report(progress, next - first);
+    }
   }
 
   void draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
-            const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull, bool shade,
-            int threads, const std::string& backend, std::uint32_t background, bool clear,
-            const std::optional<std::array<int, 4>>& scissor) {
+            const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull, int threads,
+            bool shade, const std::string& backend, std::uint32_t background, bool clear,
+            const std::optional<std::array<int, 4>>& scissor, const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, true);
     FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
@@ -111,11 +121,12 @@ class Drawn {
     options.shade = shade;
     RenderPass pass{.background = background, .clear = clear};
     if (scissor) pass.scissor = {(*scissor)[0], (*scissor)[1], (*scissor)[2], (*scissor)[3]};
-    for_each_view(cameras, frames.views, [&](const Drawable& drawable, std::size_t i) {
+    const auto draw_view = [&](const Drawable& drawable, std::size_t i) {
       auto& made = backends_[backend];
       if (made == nullptr) made = find_backend(backend).make();
       edgewise::draw(drawable, frontend_, options, *made, frames[i], pass, {.threads = threads});
-    });
+    };
+    for_each_view(cameras, frames.views, draw_view, progress);
   }
 
   py::tuple barycentrics(const Matrix& views, const Matrix& projections,
@@ -138,6 +149,9 @@ class Drawn {
   }
 
  private:
+  // Short for a person. Far longer than taking the GIL, for which Python may need 5 ms.
+  static constexpr std::chrono::milliseconds kTurn{50};
+
   Drawable drawable_;
   Frontend frontend_;
   std::map<std::string, std::unique_ptr<Backend>> backends_;

@@ -19,7 +19,7 @@ Samples samples_of(const std::variant<Path, Words>& from) {
   check(colours, "a picture", {-1, -1});
   Samples samples{side(colours.shape(1)), side(colours.shape(0)), false, {}};
   const auto pixels = copied<std::uint32_t>(colours);
-  const py::gil_scoped_release released;
+  const Released released;
   samples.pixels.reserve(pixels.size());
   for (const std::uint32_t c : pixels) {
     const auto sample = [&](int shift) { return static_cast<std::uint16_t>((c >> shift & 255) * 257); };
@@ -42,7 +42,7 @@ py::tuple diff(const T& a, const T& b, const std::optional<std::variant<Path, Wo
   std::optional<Samples> mask;
   if (mask_from) mask = samples_of(*mask_from);
   const MaskedDifference found = [&] {
-    const py::gil_scoped_release released;
+    const Released released;
     return difference(a, b, mask ? &*mask : nullptr);
   }();
   const Difference& d = found.outside;

@@ -39,7 +39,8 @@ py::list as_list(const std::vector<lab::Question>& questions) {
 }
 
 py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int width, int height,
-                const std::string& cull, std::optional<double> displacement, int threads) {
+                const std::string& cull, std::optional<double> displacement, int threads,
+                const py::object& progress) {
   if (displacement && !(*displacement >= 0.0 && *displacement <= 1e6))
     throw std::invalid_argument("displacement must be 0 to 10^6");
   const auto cameras = cameras_of(views, projections);
@@ -47,12 +48,12 @@ py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int
   check_threads(threads);
   lab::Needs found({.displacement = displacement, .threads = threads});
   lab::LeastPrecise least;
-  self.for_each_view(cameras, std::max<std::size_t>(cameras.size(), 1),
-                     [&](const Drawable& drawable, std::size_t) {
-                       found.add(lab::with_camera(drawable, {width, height}), options);
-                     });
+  const auto add = [&](const Drawable& drawable, std::size_t) {
+    found.add(lab::with_camera(drawable, {width, height}), options);
+  };
+  self.for_each_view(cameras, std::max<std::size_t>(cameras.size(), 1), add, progress);
   {
-    const py::gil_scoped_release released;
+    const Released released;
     least = found.least_precise();
   }
   py::dict reach;

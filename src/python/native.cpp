@@ -14,6 +14,7 @@
 #include "edgewise/camera.h"
 #include "edgewise/contract.h"
 #include "edgewise/hash.h"
+#include "edgewise/limits.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/scene.h"
 #include "edgewise/tri_file.h"
@@ -71,6 +72,8 @@ PYBIND11_MODULE(_native, m) {
   using OptionalArray = std::optional<py::array>;
 
   m.attr("VERSION") = EDGEWISE_VERSION;
+  m.attr("PYBIND11") = py::make_tuple(PYBIND11_VERSION_MAJOR, PYBIND11_VERSION_MINOR);
+  m.attr("MAX_THREADS") = kMaxThreads;
   m.attr("DEPTH_HEAD") = contract::kDepthHead;
   m.attr("DEPTH_RANGE") = contract::kDepthRange;
   m.attr("DEPTH_CLEAR") = contract::kDepthClear;
@@ -99,7 +102,7 @@ PYBIND11_MODULE(_native, m) {
   m.def("pixel_hash", [](const OptionalArray& payload, const py::array& depth) {
     const Frames frames(payload, depth, false);
     if (frames.is_stack) throw std::invalid_argument("a hash is that of a frame of one view");
-    const py::gil_scoped_release released;
+    const Released released;
     (void)checked(frames[0], Execution{});
     return hash_of(frames[0]);
   });
@@ -107,7 +110,7 @@ PYBIND11_MODULE(_native, m) {
     const Frames frames(payload, depth, false);
     std::vector<std::vector<std::uint32_t>> views;
     {
-      const py::gil_scoped_release released;
+      const Released released;
       for (std::size_t i = 0; i < frames.views; ++i) views.push_back(visible_triangles(frames[i]));
     }
     py::list arrays;

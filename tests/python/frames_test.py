@@ -200,7 +200,6 @@ BAD = {
     "fraction of two cameras": ("2 cameras", lambda: scene().visible_fraction(frame_of(scene()), [CAMERA] * 2)),
     "singular camera": ("no inverse", lambda: edgewise.metric_depth(frame_of(scene()), edgewise.Camera(
         np.eye(4), np.ones((4, 4))))),
-    "camera as a tuple": ("edgewise.Camera", lambda: edgewise.metric_depth(frame_of(scene()), tuple(CAMERA))),
     "instances of another scene": ("has id", lambda: edgewise.Scene(*triangles(1)[:2]).instance_ids(frame_of(scene()))),
     "instances of colours": ("has id", lambda: scene().instance_ids(frame_of(scene(), ids=False))),
     "instances without payload": ("no payload", lambda: scene().instance_ids(frame_of(scene(), depth_only=True))),

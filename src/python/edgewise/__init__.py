@@ -9,12 +9,16 @@ Clip space, which is ``projection @ view @ world``: x points right, y up; visibl
 0 <= z <= w; z = 0 is nearest. The front of a triangle is the side from which its vertices appear clockwise on the screen.
 Pictures are the same, bit for bit, on every machine and for every backend and number of threads.
 
-Matrices multiply column vectors, as in ``matrix @ column``. Arrays of input are converted to the type that is stated.
-A frame's planes are the caller's memory: they are neither converted nor copied, so another type is an error.
+Matrices multiply column vectors, as in ``matrix @ column``. Arrays of input are converted to the type that is stated: floats
+are rounded; an array of complex numbers, texts, objects or bools, one with a mask, an integer that the type cannot hold, and a
+float beyond its range are errors. A frame's planes are the caller's memory: they are neither converted nor copied, so another
+type is an error.
 
-Errors: ValueError for arguments, with the library's text; OSError for files that cannot be read or written, among them
-unknown extensions; TypeError for arguments of another type, and for integers of over 32 bits, or below 0 where only those
-from 0 on count; MemoryError. All work that takes long releases the GIL.
+Errors: ValueError for arguments, arrays' types among them; TypeError for arguments of another type, such as "2" or True for
+2; OSError for files that cannot be read or written, among them unknown extensions; MemoryError. All name what is wrong.
+
+All work that takes long releases the GIL. Ctrl-C ends Scene.draw() and Scene.needs() of several cameras between two of them;
+any other call ends first. Python may exit while its threads draw.
 """
 from __future__ import annotations
 
@@ -22,25 +26,28 @@ import copy
 import math
 import warnings
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, NamedTuple, Sequence, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native
+from . import _check, _native
 from .frames import BACKGROUND_ID as BACKGROUND_ID
 from .frames import BLACK as BLACK
 from .frames import DEPTH_CLEAR as DEPTH_CLEAR
 from .frames import Camera as Camera
 from .frames import Frame as Frame
-from .frames import Queries
+from .frames import Queries as _Queries
 from .frames import depth01 as depth01
 from .frames import id_colours as id_colours
-from .frames import matrices as _matrices
 from .frames import metric_depth as metric_depth
 
 if TYPE_CHECKING:
     from . import lab
+
+if int(np.__version__.split(".")[0]) >= 2 and _native.PYBIND11 < (2, 12):  # arrays would be read wrong, without an error
+    raise ImportError(f"edgewise was built with pybind11 {'.'.join(map(str, _native.PYBIND11))}, which cannot read arrays of "
+                      f"numpy {np.__version__}: install numpy below 2, or build edgewise with pybind11 2.12 or later")
 
 __version__: str = _native.VERSION
 BACKENDS: tuple[str, ...] = tuple(_native.BACKENDS)  # all draw the same pictures
@@ -80,12 +87,12 @@ def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 1.0, 0.0)) 
 
     All have the shape (3,). ValueError if the direction is 0, or parallel to `up` but for rounding.
     """
-    eye = np.asarray(eye, np.float64)
-    back = eye - np.asarray(target, np.float64)
-    right = np.cross(np.asarray(up, np.float64), back)
+    eye, target, up = _check.vectors(eye=eye, target=target, up=up)
+    back = eye - target
+    right = np.cross(up, back)
     axes = np.array([right, np.cross(back, right), back])
     lengths = np.linalg.norm(axes, axis=1, keepdims=True)
-    if axes.shape != (3, 3) or not (np.isfinite(lengths) & (lengths > 0)).all() or \
+    if not (np.isfinite(lengths) & (lengths > 0)).all() or \
             lengths[0] < 1e-12 * lengths[2] * np.linalg.norm(up):
         raise ValueError("a view needs a direction, which must not be parallel to up")
     view = np.eye(4)
@@ -100,7 +107,7 @@ def perspective(fov_y: float, aspect: float, near: float, far: float = math.inf)
     fov_y: vertical field of view in radians. aspect: width / height. near, far: distances along the view direction, with
     0 < near < far. ValueError for others.
     """
-    return _native.perspective(fov_y, aspect, near, far)
+    return _native.perspective(*_check.numbers(fov_y=fov_y, aspect=aspect, near=near, far=far))
 
 
 def orthographic(left: float, right: float, bottom: float, top: float, near: float, far: float) -> NDArray[np.float64]:
@@ -108,7 +115,7 @@ def orthographic(left: float, right: float, bottom: float, top: float, near: flo
 
     All are coordinates or distances in view space. ValueError if two opposite ones are equal.
     """
-    return _native.orthographic(left, right, bottom, top, near, far)
+    return _native.orthographic(*_check.numbers(left=left, right=right, bottom=bottom, top=top, near=near, far=far))
 
 
 def intrinsics(k: ArrayLike, width: int, height: int, near: float, far: float = math.inf, *,
@@ -118,7 +125,8 @@ def intrinsics(k: ArrayLike, width: int, height: int, near: float, far: float = 
     k: shape (3, 3), in pixels of a width x height image in which the centre of the first pixel lies at
     (first_centre, first_centre): 0 for OpenCV, 0.5 for COLMAP. Such a camera's view is the world-to-camera matrix.
     """
-    return _native.intrinsics(_array(k, np.float64), width, height, first_centre, near, far)
+    return _native.intrinsics(_check.array(k, "k", np.float64), *_check.counts(width=width, height=height),
+                              *_check.numbers(first_centre=first_centre, near=near, far=far))
 
 
 def projection_from(projection: ArrayLike, *, z_from_minus_w: bool = False, y_down: bool = False,
@@ -127,12 +135,13 @@ def projection_from(projection: ArrayLike, *, z_from_minus_w: bool = False, y_do
 
     z_from_minus_w: visible where -w <= z <= w (OpenGL). y_down: Vulkan. reversed: the near plane is where z is largest.
     """
-    return _native.projection_from(_array(projection, np.float64), z_from_minus_w, y_down, reversed)
+    return _native.projection_from(_check.array(projection, "projection", np.float64),
+                                   *_check.flags(z_from_minus_w=z_from_minus_w, y_down=y_down, reversed=reversed))
 
 
 def pixel_hash(frame: Frame) -> int:
     """A number that is the same for the same picture, on every machine; what `edgewise hash` prints. One view only."""
-    return _native.pixel_hash(*frame)
+    return _native.pixel_hash(*_check.frame(frame))
 
 
 def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
@@ -140,7 +149,7 @@ def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int6
 
     One frame is view 0. offsets: shape (views + 1,).
     """
-    views = _native.visible_triangles(*frame)
+    views = _native.visible_triangles(*_check.frame(frame))
     return np.concatenate([*views, np.empty(0, np.uint32)]), np.cumsum([0, *map(len, views)])
 
 
@@ -154,7 +163,7 @@ def write_image(path: _Path, colours: ArrayLike) -> None:
 
     colours: shape (height, width), uint32, 0xAABBGGRR; or (height, width, 3 or 4), uint8: R, G, B. Alpha is ignored.
     """
-    _native.write_image(path, _colours(colours))
+    _native.write_image(_check.path(path, "path"), _colours(colours))
 
 
 def read_pfm(path: _Path) -> NDArray[np.float32]:
@@ -164,7 +173,7 @@ def read_pfm(path: _Path) -> NDArray[np.float32]:
 
 def write_pfm(path: _Path, depth: ArrayLike) -> None:
     """Writes a depth map, such as depth01() of a frame's depth, shape (height, width), as float32."""
-    _native.write_pfm(path, _array(depth, np.float32))
+    _native.write_pfm(_check.path(path, "path"), _check.array(depth, "depth", np.float32))
 
 
 def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | None = None) -> Difference:
@@ -174,13 +183,14 @@ def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | N
     compared as float32. Planes of frames are neither: compare id_colours(ids) and depth01(depth). mask: a file, or an array of
     shape (height, width), or a picture. Pixels count as equal where it is not black or 0, so Portable.reasons is one.
     """
-    depths = [fspath(x).lower().endswith(".pfm") if _is_path(x) else np.asarray(x).dtype.kind == "f" for x in (a, b)]
+    depths = [fspath(x).lower().endswith(".pfm") if _is_path(x) else _check.as_array(x).dtype.kind == "f" for x in (a, b)]
     if depths[0] != depths[1]:
         raise ValueError("a picture cannot be compared with a depth map")
     if mask is not None and not _is_path(mask):
         mask = _mask(mask)
     if depths[0]:
-        return Difference(*_native.diff_depths(*(_readable(x) if _is_path(x) else _array(x, np.float32) for x in (a, b)), mask))
+        return Difference(*_native.diff_depths(*(_readable(x) if _is_path(x) else _check.array(x, name, np.float32)
+                                                for x, name in ((a, "a"), (b, "b"))), mask))
     return Difference(*_native.diff_pictures(*(_readable(x) if _is_path(x) else _colours(x) for x in (a, b)), mask))
 
 
@@ -203,35 +213,39 @@ class _Drawable:
 
         The frame shows this alone, drawn with a first_id of 0. ValueError for an id that this lacks.
         """
-        return self._native.pixels_per_triangle(*frame)
+        return self._native.pixels_per_triangle(*_check.frame(frame))
 
-    def _draw(self, cameras: Sequence[Camera], several: bool, size: tuple[int, int], options: tuple, ids: bool,
-              background: int | None, scissor: tuple[int, int, int, int] | None, onto: Frame | None, clear: bool,
-              depth_only: bool) -> Frame:
-        width, height = size
-        if not all(1 <= side <= _native.MAX_SIDE for side in size):
-            raise ValueError(f"a frame of {width} x {height} px has a side outside 1 to {_native.MAX_SIDE}")
+    def _draw(self, cameras: list[Camera], several: bool, size: tuple[int, int], first_id: int, cull: str, shade: bool,
+              threads: int, backend: str, ids: bool, background: int | None, scissor: tuple[int, int, int, int] | None,
+              onto: Frame | None, clear: bool, depth_only: bool, progress: Callable[[int], object] | None) -> Frame:
+        width, height = _check.size(size)
         shape = (*((len(cameras),) if several else ()), height, width)
+        ids, shade, clear, depth_only = _check.flags(ids=ids, shade=shade, clear=clear, depth_only=depth_only)
         if background is None:
             background = BACKGROUND_ID if ids else BLACK
+        if scissor is not None:
+            scissor = _check.integers(scissor, "scissor", 4, -_check.INT_MAX, _check.INT_MAX)
+        options = (*_check.id_options(first_id, cull, threads), shade, _check.text(backend, "backend"),
+                   _check.integer(background, "background", 0, _check.UINT_MAX))
+        _check.callback(progress, "progress")
         if onto is None:
             def plane(value: int) -> NDArray[np.uint32]:  # the draw writes all pixels, unless there is a scissor
                 return np.empty(shape, np.uint32) if scissor is None else np.full(shape, value, np.uint32)
             frame = Frame(None if depth_only else plane(background), plane(DEPTH_CLEAR))
         else:
-            frame = Frame(*onto)
+            frame = _check.frame(onto, "onto")
             if np.shape(frame.depth) != shape:
                 raise ValueError(f"onto has the shape {np.shape(frame.depth)}, not {shape}")
-            if not clear and np.max(frame.depth) > DEPTH_CLEAR:
+            if not clear and frame.depth.dtype.kind == "u" and np.max(frame.depth, initial=0) > DEPTH_CLEAR:
                 raise ValueError("onto has a depth above DEPTH_CLEAR")
-        self._native.draw(*_matrices(cameras), None if depth_only else frame.payload, frame.depth, ids, *options, background,
-                          clear or onto is None, scissor)
+        self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth, ids, *options,
+                          clear or onto is None, scissor, progress)
         if not depth_only:
             frame.has_ids = ids
         return frame
 
 
-class Scene(Queries, _Drawable):
+class Scene(_Queries, _Drawable):
     """Meshes, their instances, and a light. Clip space and the fronts of triangles are as this module says.
 
     Several threads may use a scene; its draws take turns. Scenes of their own let them draw at the same time.
@@ -266,28 +280,29 @@ class Scene(Queries, _Drawable):
         uint32, 0xAABBGGRR, or (m, 3), uint8, RGB; else light grey. two_sided: no triangle is culled, and each is lit on the
         side that is seen. Triangles with NaN or infinity are not drawn. ValueError for an index out of range.
         """
-        return self._native.add_mesh(_array(positions, np.float32), _indices(triangles),
-                                     None if colours is None else _colours(colours), two_sided)
+        return self._native.add_mesh(
+            _check.array(positions, "positions", np.float32), _check.array(triangles, "triangles", np.uint32),
+            None if colours is None else _colours(colours), *_check.flags(two_sided=two_sided))
 
     def add_instance(self, mesh: int, matrix: ArrayLike = IDENTITY) -> int:
         """Places a mesh in the world by an affine matrix, shape (4, 4), and returns the instance's number."""
-        return self._native.add_instance(mesh, _array(matrix, np.float64))
+        return self._native.add_instance(*_check.counts(mesh=mesh), _check.array(matrix, "matrix", np.float64))
 
     def set_instance(self, instance: int, matrix: ArrayLike) -> None:
         """Moves an instance. matrix: affine, shape (4, 4), from the mesh to the world."""
-        self._native.set_instance(instance, _array(matrix, np.float64))
+        self._native.set_instance(*_check.counts(instance=instance), _check.array(matrix, "matrix", np.float64))
 
     def remove_instance(self, instance: int) -> None:
         """Removes an instance. The numbers of later ones decrease by one."""
-        self._native.remove_instance(instance)
+        self._native.remove_instance(*_check.counts(instance=instance))
 
     def set_positions(self, mesh: int, positions: ArrayLike) -> None:
         """Moves a mesh's vertices, for animation. positions: as many as before, shape (n, 3), float32; they are copied."""
-        self._native.set_positions(mesh, _array(positions, np.float32))
+        self._native.set_positions(*_check.counts(mesh=mesh), _check.array(positions, "positions", np.float32))
 
     def set_light(self, direction: Sequence[float]) -> None:
         """The direction towards the light, in world space: three numbers, finite, and of any length but 0."""
-        self._native.set_light(*direction)
+        self._native.set_light(*_check.vectors(direction=direction)[0])
 
     @property
     def meshes(self) -> tuple[Mesh, ...]:
@@ -311,12 +326,12 @@ class Scene(Queries, _Drawable):
 
     def camera(self, aspect: float) -> Camera:
         """A camera that sees the whole scene in images whose width is `aspect` times their height."""
-        return Camera(*self._native.camera(aspect))
+        return Camera(*self._native.camera(*_check.numbers(aspect=aspect)))
 
     def draw(self, camera: Camera | Sequence[Camera], size: tuple[int, int], *, ids: bool = False, first_id: int = 0,
              cull: str = "none", shade: bool = True, threads: int = 1, backend: str = "tiled", background: int | None = None,
              scissor: tuple[int, int, int, int] | None = None, onto: Frame | None = None, clear: bool = False,
-             depth_only: bool = False) -> Frame:
+             depth_only: bool = False, progress: Callable[[int], object] | None = None) -> Frame:
         """Draws the scene, seen by one camera or by several.
 
         size: width, height in pixels, at most 16384.
@@ -333,10 +348,12 @@ class Scene(Queries, _Drawable):
           may exceed DEPTH_CLEAR.
         clear: clears `onto` first, inside the scissor.
         depth_only: neither makes nor writes payloads.
+        progress: is called between views, at most 20 times a second, and at the end, with the number of views just done, as
+          tqdm's update is. What it raises ends the draw, as Ctrl-C does. Meanwhile it and other threads may use the scene;
+          later views show their changes.
         """
-        several = not isinstance(camera, Camera)
-        return self._draw(camera if several else [camera], several, size, (first_id, cull, shade, threads, backend), ids,
-                          background, scissor, onto, clear, depth_only)
+        return self._draw(_check.cameras(camera, "camera"), not isinstance(camera, Camera), size, first_id, cull, shade,
+                          threads, backend, ids, background, scissor, onto, clear, depth_only, progress)
 
     def barycentrics(self, frame: Frame, camera: Camera | Sequence[Camera], *, first_id: int = 0, cull: str = "none",
                      threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -350,36 +367,38 @@ class Scene(Queries, _Drawable):
         ValueError if the frame shows something else than this scene, seen by this camera, with this culling. If it was drawn
         over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
         """
-        cameras = [camera] if isinstance(camera, Camera) else camera
-        return self._native.barycentrics(*_matrices(cameras), *frame, first_id, cull, threads)
+        return self._native.barycentrics(*_check.matrices(_check.cameras(camera, "camera")), *_check.frame(frame),
+                                         *_check.id_options(first_id, cull, threads))
 
     def pixels_per_instance(self, frame: Frame) -> NDArray[np.uint32]:
         """The number of pixels of each instance in a frame as of pixels_per_triangle(): shape (instances,), or (views,
         instances)."""
-        return self._native.pixels_per_instance(*frame)
+        return self._native.pixels_per_instance(*_check.frame(frame))
 
     def pixels_per_mesh(self, frame: Frame) -> NDArray[np.uint32]:
         """The same of all instances of each mesh: shape (meshes,), or (views, meshes)."""
-        return self._native.pixels_per_mesh(*frame)
+        return self._native.pixels_per_mesh(*_check.frame(frame))
 
     def visible(self, low: ArrayLike, high: ArrayLike, camera: Camera, frame: Frame) -> bool | NDArray[np.bool_]:
         """Whether boxes in world space could be seen in front of what a frame shows, drawn with that camera.
 
         low, high: corners, shape (3,), or (n, 3) for n answers. False is certain; True is not. The frame needs no payload.
         """
-        low, high = _array(low, np.float64), _array(high, np.float64)
-        seen = self._native.visible(np.atleast_2d(low), np.atleast_2d(high), *_matrices([camera]), frame[1])
+        low, high = _check.array(low, "low", np.float64), _check.array(high, "high", np.float64)
+        seen = self._native.visible(np.atleast_2d(low), np.atleast_2d(high), *_check.matrices([_check.camera(camera)]),
+                                    _check.frame(frame).depth)
         return bool(seen[0]) if low.ndim == 1 else seen
 
     def needs(self, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
-              displacement: float | None = None, threads: int = 1) -> lab.Needs:
+              displacement: float | None = None, threads: int = 1, progress: Callable[[int], object] | None = None) -> lab.Needs:
         """edgewise.lab.needs() of this scene."""
-        return _laboratory().needs(self, cameras, size, cull=cull, displacement=displacement, threads=threads)
+        return _laboratory().needs(self, cameras, size, cull=cull, displacement=displacement, threads=threads,
+                                   progress=progress)
 
     def portable(self, camera: Camera, size: tuple[int, int], *, cull: str = "none", bits: int = 8, ulps: int = 2,
                  guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> lab.Portable:
         """edgewise.lab.portable() of this scene."""
-        return _laboratory().portable(self, camera, size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band, depth=depth, threads=threads)
+        return _laboratory().portable(self, _check.camera(camera), size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band, depth=depth, threads=threads)
 
 
 class Stream(_Drawable):
@@ -388,7 +407,8 @@ class Stream(_Drawable):
     def __init__(self, vertices: ArrayLike, size: tuple[int, int], *, colours: ArrayLike | None = None):
         """vertices: shape (n, 3, 3), float32: per triangle and vertex, x and y in pixels, y down, and z in 0 ... 1, where
         smaller z is nearer. size: width, height in pixels of the image they are made for. colours: as Scene.add_mesh()."""
-        self._native = _native.stream(_array(vertices, np.float32), *size, None if colours is None else _colours(colours))
+        self._native = _native.stream(_check.array(vertices, "vertices", np.float32), *_check.size(size),
+                                      None if colours is None else _colours(colours))
 
     @classmethod
     def read_tri(cls, path: _Path) -> Stream:
@@ -399,7 +419,7 @@ class Stream(_Drawable):
 
     def write_tri(self, path: _Path) -> None:
         """Writes a .tri file."""
-        self._native.write_tri(path)
+        self._native.write_tri(_check.path(path, "path"))
 
     @property
     def size(self) -> tuple[int, int]:
@@ -422,13 +442,14 @@ class Stream(_Drawable):
              depth_only: bool = False) -> Frame:
         """Draws the triangles, unlit. size: by default the stream's; a smaller one crops the picture. The other arguments
         are those of Scene.draw()."""
-        return self._draw([], False, self.size if size is None else size, (first_id, cull, False, threads, backend), ids, background, scissor,
-                          onto, clear, depth_only)
+        return self._draw([], False, self.size if size is None else size, first_id, cull, False, threads, backend, ids,
+                          background, scissor, onto, clear, depth_only, None)
 
     def barycentrics(self, frame: Frame, *, first_id: int = 0, cull: str = "none",
                      threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """As Scene.barycentrics(); the distance is the depth in 0 ... 1."""
-        return self._native.barycentrics(*_matrices([]), *frame, first_id, cull, threads)
+        return self._native.barycentrics(*_check.matrices([]), *_check.frame(frame),
+                                         *_check.id_options(first_id, cull, threads))
 
     def needs(self, size: tuple[int, int] | None = None, *, cull: str = "none", displacement: float | None = None,
               threads: int = 1) -> lab.Needs:
@@ -456,22 +477,8 @@ def _laboratory() -> Any:
     return lab
 
 
-def _array(values: ArrayLike, dtype: Any) -> NDArray[Any]:
-    return np.asarray(values, dtype, order="C")
-
-
-def _indices(triangles: ArrayLike) -> NDArray[np.uint32]:
-    array = np.asarray(triangles)
-    if array.size and array.dtype != np.uint32:
-        if array.dtype.kind not in "iu":
-            raise ValueError("triangles must be integers")
-        if array.min() < 0 or array.max() > 0xFFFFFFFF:
-            raise ValueError("an index of triangles is out of range")
-    return _array(array, np.uint32)
-
-
 def _colours(colours: ArrayLike) -> NDArray[np.uint32]:
-    array = np.asarray(colours)
+    array = _check.as_array(colours)
     if array.dtype == np.uint8 and array.ndim and array.shape[-1] in (3, 4):
         r, g, b = (array[..., i].astype(np.uint32) for i in range(3))
         return r | g << np.uint32(8) | b << np.uint32(16) | np.uint32(BLACK)
@@ -479,7 +486,7 @@ def _colours(colours: ArrayLike) -> NDArray[np.uint32]:
         raise ValueError("colours must be integers 0xAABBGGRR, or R, G, B of type uint8")
     if array.size and array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
         raise ValueError("a colour is outside 0 to 0xFFFFFFFF")
-    return _array(array, np.uint32)
+    return _check.array(array, "colours", np.uint32)
 
 
 def _mask(mask: ArrayLike) -> NDArray[np.uint32]:
@@ -496,5 +503,5 @@ def _is_path(value: Any) -> bool:
 
 def _readable(path: _Path) -> _Path:
     """Raises FileNotFoundError, PermissionError, ... as Python does."""
-    with open(path, "rb"):
+    with open(_check.path(path, "path"), "rb"):
         return path

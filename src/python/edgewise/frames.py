@@ -9,7 +9,7 @@ from typing import Any, Iterator, NamedTuple, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native
+from . import _check, _native
 
 BACKGROUND_ID = 0xFFFFFFFF  # of pixels that no triangle covers, in frames of ids
 BLACK = 0xFF000000
@@ -72,7 +72,8 @@ def _png(colours: NDArray[np.uint32]) -> bytes:
 
 def depth01(depth: NDArray[np.uint32]) -> NDArray[np.float64]:
     """Depths of a frame, of any shape, from 0, at the near plane, to 1, at the far plane and on background."""
-    return np.clip((np.asarray(depth).astype(np.float64) - _native.DEPTH_HEAD) / _native.DEPTH_RANGE, 0.0, 1.0)
+    words = _check.array(depth, "depth", np.uint32)
+    return np.clip((words.astype(np.float64) - _native.DEPTH_HEAD) / _native.DEPTH_RANGE, 0.0, 1.0)
 
 
 def metric_depth(frame: Frame, camera: Camera | Sequence[Camera]) -> NDArray[np.float64]:
@@ -83,8 +84,8 @@ def metric_depth(frame: Frame, camera: Camera | Sequence[Camera]) -> NDArray[np.
     where the camera is far: distance**2 / near * 2**-31 in perspective; the depth is within 34 units. Scene.barycentrics()
     gives distances with an error relative to them, and takes longer.
     """
-    depth = np.asarray(frame.depth)
-    views, projections = matrices([camera] if isinstance(camera, Camera) else camera)
+    depth = _check.frame(frame).depth
+    views, projections = _check.matrices(_check.cameras(camera, "camera"))
     if depth.shape[:-2] != (() if isinstance(camera, Camera) else (len(views),)):
         raise ValueError(f"depth has the shape {depth.shape}, for {len(views)} cameras")
     z = depth01(depth)
@@ -112,15 +113,7 @@ def id_colours(ids: NDArray[np.uint32]) -> NDArray[np.uint32]:
 
     BACKGROUND_ID is black.
     """
-    return (np.asarray(ids, np.uint32) + np.uint32(1)) * np.uint32(0x9E3779) & np.uint32(0xFFFFFF) | np.uint32(BLACK)
-
-
-def matrices(cameras: Sequence[Camera]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The views and the projections, each of the shape (cameras, 4, 4)."""
-    if not all(isinstance(camera, Camera) for camera in cameras):
-        raise ValueError("a camera must be an edgewise.Camera")
-    views, projections = (np.array([camera[i] for camera in cameras], np.float64) for i in (0, 1))
-    return views, projections
+    return (_check.array(ids, "ids", np.uint32) + np.uint32(1)) * np.uint32(0x9E3779) & np.uint32(0xFFFFFF) | np.uint32(BLACK)
 
 
 class Queries:
@@ -140,7 +133,8 @@ class Queries:
                      threads: int = 1) -> NDArray[np.bool_]:
         """The pixels that each instance would cover if it were alone: shape (instances, height, width) or (views, instances,
         height, width). Arguments as of draw(). Draws once per instance and camera."""
-        several = () if isinstance(camera, Camera) else (len(camera),)
+        cameras, size = _check.cameras(camera, "camera"), _check.size(size)
+        several = () if isinstance(camera, Camera) else (len(cameras),)
         masks = list(self._alone(camera, size, cull, threads))
         return np.stack(masks, axis=-3) if masks else np.empty((*several, 0, size[1], size[0]), np.bool_)
 
@@ -151,12 +145,13 @@ class Queries:
 
         frame, camera and cull: of one draw of ids.
         """
-        height, width = frame.depth.shape[-2:]
+        cameras = _check.cameras(camera, "camera")
+        height, width = _check.frame(frame).depth.shape[-2:]
         visible = self.pixels_per_instance(frame)
         alone = [mask.sum(axis=(-2, -1)) for mask in self._alone(camera, (width, height), cull, threads)]
         whole = np.stack(alone, axis=-1) if alone else np.zeros(visible.shape)
         if whole.shape != visible.shape:
-            raise ValueError(f"the frame has the shape {frame.depth.shape}, for {1 if isinstance(camera, Camera) else len(camera)} cameras")
+            raise ValueError(f"the frame has the shape {frame.depth.shape}, for {len(cameras)} cameras")
         return visible / np.maximum(whole, 1)
 
     def interpolate(self: Any, frame: Frame, attribute: ArrayLike | Sequence[ArrayLike], camera: Camera | Sequence[Camera], *,
@@ -168,7 +163,7 @@ class Queries:
         The result has the arrays' type, or a float type that holds it; the weights are those of barycentrics().
         """
         meshes = self.meshes
-        arrays = [np.asarray(values) for values in (attribute if isinstance(attribute, (list, tuple)) else [attribute])]
+        arrays = [_check.as_array(values) for values in (attribute if isinstance(attribute, (list, tuple)) else [attribute])]
         if len(arrays) != len(meshes):
             raise ValueError(f"attribute: {len(arrays)} arrays given instead of {len(meshes)}, one per mesh")
         for i, (array, mesh) in enumerate(zip(arrays, meshes)):
@@ -193,10 +188,11 @@ class Queries:
 
     def _shown(self: Any, frame: Frame) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.intp]]:
         """Which pixels are drawn; then of these in order the triangle, counted in its mesh, and the instance."""
-        if frame.payload is None:
+        payload, depth = _check.frame(frame)
+        if payload is None:
             raise ValueError("the frame has no payload: draw ids")
-        drawn = np.asarray(frame.depth) != DEPTH_CLEAR
-        ids = np.asarray(frame.payload)[drawn].astype(np.int64)
+        drawn = depth != DEPTH_CLEAR
+        ids = _check.array(payload, "frame.payload", np.uint32)[drawn].astype(np.int64)
         first = self.first_ids()
         if ids.size and ids.max() >= first[-1]:
             raise ValueError(f"a pixel has id {ids.max()} of {first[-1]} triangles")

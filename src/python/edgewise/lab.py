@@ -4,12 +4,13 @@ The module is there if GMP and fmt were found when the package was built; else i
 """
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Sequence
+from typing import Any, Callable, NamedTuple, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .frames import Camera, matrices
+from . import _check
+from .frames import Camera
 
 try:
     from . import _lab
@@ -73,14 +74,17 @@ class Needs(NamedTuple):
 
 
 def needs(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
-          displacement: float | None = None, threads: int = 1) -> Needs:
+          displacement: float | None = None, threads: int = 1, progress: Callable[[int], object] | None = None) -> Needs:
     """The least precise pipeline that draws these frames of a scene right, or the frame of a stream, which has no cameras.
 
     As `edgewise needs` finds it, in seconds. Cameras must have a perspective projection and an affine view. displacement:
-    pixels per 10**6 edge crossings that rounding may move; by default as many as with 8 subpixel bits.
+    pixels per 10**6 edge crossings that rounding may move; by default as many as with 8 subpixel bits. progress: as
+    in Scene.draw(); the search for the pipeline follows the last view.
     """
-    return _needs(_lab.needs(drawable._native, *matrices([cameras] if isinstance(cameras, Camera) else cameras), *size, cull,
-                             displacement, threads))
+    return _needs(_lab.needs(drawable._native, *_check.matrices(_check.cameras(cameras, "cameras")), *_check.size(size),
+                             _check.text(cull, "cull"),
+                             None if displacement is None else _check.numbers(displacement=displacement)[0],
+                             _check.threads(threads), _check.callback(progress, "progress")))
 
 
 def portable(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none", bits: int = 8,
@@ -91,8 +95,9 @@ def portable(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int,
     positions, at least. ulps: error of the viewport transform. guard_band: how far triangles may reach beyond the picture, in
     px. depth: d16_unorm, d24_unorm or d32_sfloat.
     """
-    reasons = _lab.portable(drawable._native, *matrices([cameras] if isinstance(cameras, Camera) else cameras), *size, cull, bits, ulps,
-                            guard_band, depth, threads)
+    reasons = _lab.portable(drawable._native, *_check.matrices(_check.cameras(cameras, "cameras")), *_check.size(size),
+                            _check.text(cull, "cull"), *_check.counts(bits=bits, ulps=ulps, guard_band=guard_band),
+                            _check.text(depth, "depth"), _check.threads(threads))
     counts = np.bincount(reasons.ravel(), minlength=len(UNSTABLE))
     return Portable(reasons, dict(zip(UNSTABLE, map(int, counts))))
 
