@@ -197,6 +197,8 @@ BAD = {
     "two cameras for one view": ("2 cameras for 1 view", lambda: scene().barycentrics(frame_of(scene()), [CAMERA] * 2)),
     "one camera for two views": ("1 cameras for 2 views", lambda: scene().barycentrics(frame_of(scene(), [CAMERA] * 2), CAMERA)),
     "depth of two cameras": ("2 cameras", lambda: edgewise.metric_depth(frame_of(scene()), [CAMERA] * 2)),
+    "depth of a row": ("shape", lambda: edgewise.metric_depth(edgewise.Frame(None, np.zeros(4, np.uint32)), CAMERA)),
+    "camera of 3 rows": ("shape", lambda: edgewise.metric_depth(frame_of(scene()), edgewise.Camera(np.eye(3), np.eye(3)))),
     "fraction of two cameras": ("2 cameras", lambda: scene().visible_fraction(frame_of(scene()), [CAMERA] * 2)),
     "singular camera": ("no inverse", lambda: edgewise.metric_depth(frame_of(scene()), edgewise.Camera(
         np.eye(4), np.ones((4, 4))))),

@@ -86,7 +86,7 @@ def metric_depth(frame: Frame, camera: Camera | Sequence[Camera]) -> NDArray[np.
     """
     depth = _check.frame(frame).depth
     views, projections = _check.matrices(_check.cameras(camera, "camera"))
-    if depth.shape[:-2] != (() if isinstance(camera, Camera) else (len(views),)):
+    if depth.ndim < 2 or depth.shape[:-2] != (() if isinstance(camera, Camera) else (len(views),)):
         raise ValueError(f"depth has the shape {depth.shape}, for {len(views)} cameras")
     z = depth01(depth)
     result = np.empty(depth.shape)
@@ -94,7 +94,7 @@ def metric_depth(frame: Frame, camera: Camera | Sequence[Camera]) -> NDArray[np.
     x, y = (2 * np.arange(width) + 1) / width - 1, 1 - (2 * np.arange(height)[:, None] + 1) / height
     stacked, distances = z.reshape(-1, height, width), result.reshape(-1, height, width)
     for i, (view, projection) in enumerate(zip(views, projections)):
-        to_w, to_z = (projection @ view)[[3, 2], :3]
+        to_z, to_w = (projection @ view)[2:, :3]
         if to_w.any():  # w is the distance from the camera, but for scale
             try:
                 to_world = np.linalg.inv(view)[3] @ np.linalg.inv(projection)  # clip space, where w is 1, to 1 / w
