@@ -179,6 +179,11 @@ edgewise_status edgewise_set_positions(edgewise_scene* scene, size_t mesh, const
   });
 }
 
+edgewise_status edgewise_name_triangles(edgewise_scene* scene, size_t mesh, size_t first, size_t count,
+                                        const char* name) {
+  return status_of([&] { add_part(meshes_of(scene), mesh, {&given(name, "name"), first, count}); });
+}
+
 edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16],
                                       size_t* index) {
   return status_of([&] {
@@ -318,6 +323,17 @@ edgewise_status edgewise_first_ids(const edgewise_scene* scene, size_t* first, s
     const Scene& s = meshes_of(scene);
     check_count("instances", instances, s.instances.size());
     copy_out(first_ids(s), first, "first");
+  });
+}
+
+edgewise_status edgewise_objects(const edgewise_scene* scene,
+                                 void (*each)(void* context, const char* name, const uint32_t* ids,
+                                              size_t count),
+                                 void* context) {
+  return status_of([&] {
+    given(each, "each");
+    for (const auto& [name, ids] : objects(meshes_of(scene)))
+      each(context, name.c_str(), ids.data(), ids.size());
   });
 }
 

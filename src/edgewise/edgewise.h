@@ -74,6 +74,11 @@ edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* me
 edgewise_status edgewise_set_positions(edgewise_scene* scene, size_t mesh, const float* positions,
                                        size_t vertex_count, size_t stride);
 
+/* Gives `count` triangles of a mesh, from `first` on, a name, for edgewise_objects(). A name may be given
+ * again, and triangles may have several. */
+edgewise_status edgewise_name_triangles(edgewise_scene* scene, size_t mesh, size_t first, size_t count,
+                                        const char* name);
+
 /* Places a mesh in the world by an affine matrix, whose last row is 0 0 0 1. Null: the identity. `index`,
  * unless null, gets the instance's number. */
 edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16],
@@ -182,6 +187,13 @@ edgewise_status edgewise_pixels_per_mesh(edgewise_frame ids, const edgewise_scen
 /* The id of each instance's first triangle, less first_id; then the scene's number of triangles. `first` has
  * instances + 1 elements. */
 edgewise_status edgewise_first_ids(const edgewise_scene* scene, size_t* first, size_t instances);
+/* Calls each(context, name, ids, count) for every name that edgewise_name_triangles() gave, in the order of
+ * strcmp(): the ids of its triangles, less first_id, ascending, through all instances. What the call gets
+ * lives until it returns. */
+edgewise_status edgewise_objects(const edgewise_scene* scene,
+                                 void (*each)(void* context, const char* name, const uint32_t* ids,
+                                              size_t count),
+                                 void* context);
 /* Whether a box in world space could be seen in front of what the frame shows. 0: it is certainly hidden. 1:
  * it may be visible. The frame needs no payload. */
 edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double low[3], const double high[3],

@@ -23,18 +23,21 @@ struct ObjOptions {
 struct ObjReport {
   glm::dvec3 offset{0.0};  // subtracted from all positions of the file; they are rounded to float after that
   // What a user should know though the file can be drawn, one line each, which starts with the file's name:
-  // materials that are missing, faces that are skipped.
+  // materials that are missing, faces that are skipped, colours that are scaled.
   std::vector<std::string> warnings;
 };
 
 // A scene of one mesh, with a camera placed by frame_camera.
 // - Polygons of any size are triangulated; their triangles share one normal (face_normal). Faces of one or
-//   two corners are skipped.
+//   two corners are skipped, and those that take more than 200,000,000 steps to fill.
 // - Negative (relative) indices are resolved.
 // - Windings are reversed: the front is counter-clockwise in OBJ and clockwise here.
-// - A face has the mean colour of its vertices if all have one (v x y z r g b), or else its material's Kd, or
-//   else light grey. Its .mtl files are regular files, sought in the folder of the OBJ file, or in the
-//   current one if that is read from a descriptor.
+// - A face has the mean colour of its vertices if all have one (v x y z r g b, or v x y z w r g b), or else
+//   its material's Kd, or else light grey. Vertex colours beyond 1 are divided by 255 if the file's are all
+//   whole numbers of 0 to 255, or else clamped. The .mtl files are regular files, sought in the folder of the
+//   OBJ file, or in the current one if that is read from a descriptor. Their paths may have backslashes.
+// - Objects (o) and groups (g) become Mesh::parts, for objects() in visible.h. A group's name is a word, an
+//   object's or a material's the rest of the line. A '#' belongs to the name, as in "Paint #1".
 // - Positions are read in double. If they are far from the origin, more than 4 times the longest side of the
 //   box around them, the mesh holds them relative to an offset near the box's centre, and the instance's
 //   translation is that offset: so float keeps what the file says. `options` may ask for the offset without

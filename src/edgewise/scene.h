@@ -40,6 +40,13 @@ struct MeshCluster {
   glm::vec3 low, high;  // bounding box in model space; infinite if a vertex is not finite
 };
 
+// Triangles first … first + count - 1 of a mesh, which have a name: of an object or a group of an OBJ file,
+// say.
+struct MeshPart {
+  std::string name;
+  std::size_t first = 0, count = 0;
+};
+
 struct Mesh {
   std::vector<glm::vec3> positions;    // model space
   std::vector<glm::uvec3> triangles;   // indices into positions; the side seen clockwise is the front
@@ -52,6 +59,8 @@ struct Mesh {
   // For speed only: clusters_of() this mesh, or empty. Renew or clear them when positions or triangles
   // change.
   std::vector<MeshCluster> clusters{};
+  // For objects() only. Parts may overlap, and several may have one name.
+  std::vector<MeshPart> parts{};
 
   bool has_flag(std::size_t triangle, std::uint8_t flag) const {
     return !flags.empty() && (flags[triangle] & flag) != 0;

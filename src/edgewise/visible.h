@@ -13,6 +13,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "edgewise/framebuffer.h"
@@ -32,6 +34,11 @@ std::vector<std::uint32_t> pixels_per_triangle(const ConstFrameView& ids, std::s
 // triangle. Then one more: the number of triangles of the scene. Throws std::invalid_argument for an instance
 // whose mesh index the scene lacks.
 std::vector<std::size_t> first_ids(const Scene& scene);
+
+// The ids of the triangles of each named part (Mesh::parts), by name and ascending, through all instances.
+// The mask of an object is the pixels of a frame whose ids are among its. Ids begin at 0 here, too. Throws
+// what first_ids() throws, and std::invalid_argument for a part or a scene with too many triangles.
+std::map<std::string, std::vector<std::uint32_t>> objects(const Scene& scene);
 
 // The number of pixels of each instance, or of all instances of each mesh, in a frame of this scene alone,
 // whose ids begin at 0. If it shows several draws, sum pixels_per_triangle() between the first ids. Throws

@@ -14,6 +14,12 @@ std::size_t add_mesh(Scene& scene, Mesh mesh) {
   return scene.meshes.size() - 1;
 }
 
+void add_part(Scene& scene, std::size_t mesh, MeshPart part) {
+  check_index("mesh", mesh, scene.meshes.size());
+  check_part(scene.meshes[mesh], part);
+  scene.meshes[mesh].parts.push_back(std::move(part));
+}
+
 std::size_t add_instance(Scene& scene, const Instance& instance) {
   check_index("mesh", instance.mesh, scene.meshes.size());
   check(instance);

@@ -16,6 +16,8 @@ inline constexpr std::uint32_t kLightGrey = rgb(200, 200, 200);  // of what has 
 
 // Adds a mesh with its clusters and returns its number. If it has no colours, it is light grey.
 std::size_t add_mesh(Scene& scene, Mesh mesh);
+// Gives triangles of a mesh a name.
+void add_part(Scene& scene, std::size_t mesh, MeshPart part);
 std::size_t add_instance(Scene& scene, const Instance& instance);
 void set_instance(Scene& scene, std::size_t instance, const glm::dmat4& matrix);
 void remove_instance(Scene& scene, std::size_t instance);

@@ -62,6 +62,14 @@ void check_flags(const Mesh& mesh) {
                                 std::to_string(mesh.flags.size()) + " flags");
 }
 
+void check_part(const Mesh& mesh, const MeshPart& part) {
+  const std::size_t triangles = mesh.triangles.size();
+  if (part.first > triangles || part.count > triangles - part.first)
+    throw std::invalid_argument("a part of " + std::to_string(part.count) + " triangles from " +
+                                std::to_string(part.first) + " on does not fit a mesh of " +
+                                std::to_string(triangles));
+}
+
 void check_vertices(const Mesh& mesh) {
   const auto largest = [](glm::uvec3 t) { return std::max({t.x, t.y, t.z}); };
   const auto bad = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),

@@ -31,6 +31,9 @@ double checked_aspect(double aspect);
 // The flags are empty or one per triangle.
 void check_flags(const Mesh& mesh);
 
+// The mesh has the part's triangles.
+void check_part(const Mesh& mesh, const MeshPart& part);
+
 // All vertices that triangles name exist.
 void check_vertices(const Mesh& mesh);
 

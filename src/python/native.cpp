@@ -189,6 +189,13 @@ PYBIND11_MODULE(_native, m) {
              });
            })
       .def("first_ids", [](Drawn& self) { return self.use(first_ids_of); })
+      .def("objects",
+           [](Drawn& self) {
+             py::dict all;
+             for (const auto& [name, ids] : self.use_scene([](const Scene& scene) { return objects(scene); }))
+               all[text_of(name)] = as_array(ids);
+             return all;
+           })
       .def("pixels_per_triangle",
            [](Drawn& self, const OptionalArray& payload, const py::array& depth) {
              return pixels_per(self, payload, depth, [](const FrameView& ids, const Drawable& drawable) {

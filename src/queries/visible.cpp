@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -82,6 +83,27 @@ std::vector<std::size_t> first_ids(const Scene& scene) {
   for (const Instance& instance : scene.instances)
     first.push_back(first.back() + mesh_of(scene, instance).triangles.size());
   return first;
+}
+
+std::map<std::string, std::vector<std::uint32_t>> objects(const Scene& scene) {
+  const std::vector<std::size_t> first = first_ids(scene);
+  (void)checked_count(first.back());
+  std::map<std::string, std::vector<std::uint32_t>> objects;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Mesh& mesh = mesh_of(scene, scene.instances[i]);
+    for (const MeshPart& part : mesh.parts) {
+      check_part(mesh, part);
+      auto& ids = objects[part.name];
+      ids.resize(ids.size() + part.count);
+      std::iota(ids.end() - static_cast<std::ptrdiff_t>(part.count), ids.end(),
+                static_cast<std::uint32_t>(first[i] + part.first));
+    }
+  }
+  for (auto& [name, ids] : objects) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+  return objects;
 }
 
 std::vector<std::uint32_t> pixels_per_instance(const ConstFrameView& ids, const Scene& scene) {

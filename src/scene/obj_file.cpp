@@ -25,7 +25,7 @@ namespace edgewise {
 namespace {
 
 constexpr std::uint32_t kGrey = rgb(200, 200, 200);
-constexpr std::string_view kBlank = " \t";
+constexpr std::string_view kBlank = " \t\v\f";
 constexpr double kMostFloat = std::numeric_limits<float>::max();
 
 // A box is far from the origin if a coordinate exceeds this multiple of its longest side. Rounding such
@@ -80,6 +80,16 @@ std::string_view without_trailing_blanks(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlank) + 1);
 }
 
+std::string_view trimmed(std::string_view text) {
+  return without_trailing_blanks(text.substr(std::min(text.find_first_not_of(kBlank), text.size())));
+}
+
+// True for statements of names. A '#' belongs to the name there: programs write "Paint #1" and "Paint #2".
+bool takes_names(std::string_view line) {
+  constexpr std::array<std::string_view, 5> kKeywords{"usemtl", "newmtl", "mtllib", "o", "g"};
+  return std::find(kKeywords.begin(), kKeywords.end(), next_word(line)) != kKeywords.end();
+}
+
 // A comment starts at the beginning of a word.
 std::string_view without_comment(std::string_view line) {
   for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1))
@@ -98,22 +108,21 @@ void for_each_statement(std::string_view text, Handle&& handle) {
   std::string joined;  // lines that end with a backslash, joined
   for (std::size_t number = 1, first = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view whole = text.substr(0, end);
+    const std::string_view whole = without_trailing_blanks(text.substr(0, end));
     text.remove_prefix(end);
     if (!text.empty()) text.remove_prefix(text.starts_with("\r\n") ? 2 : 1);
     std::string_view line = without_comment(whole);
     const bool commented = line.size() < whole.size();
-    line = without_trailing_blanks(line);
     const bool continues = line.ends_with('\\') && !commented;
+    if (commented && takes_names(joined.empty() ? whole : std::string_view(joined))) line = whole;
     if (continues) line.remove_suffix(1);
-    if (continues || !joined.empty()) line = joined.append(line).append(" ");
+    if (continues || !joined.empty()) line = joined.append(trimmed(line)).append(" ");
     if (continues && !text.empty()) continue;
-    std::string_view rest = without_trailing_blanks(line);
+    std::string_view rest = line;
     const std::string_view keyword = next_word(rest);
     if (std::any_of(keyword.begin(), keyword.end(), [](char c) { return c == '#' || is_control(c); }))
       throw std::invalid_argument(at_line(first, "# or control character in " + in_quotes(keyword)));
-    rest.remove_prefix(std::min(rest.find_first_not_of(kBlank), rest.size()));
-    handle(keyword, rest, first);
+    handle(keyword, trimmed(rest), first);
     joined.clear();
     first = number + 1;
   }
@@ -176,10 +185,20 @@ class Reader {
         use_material(rest, line);
       else if (keyword == "mtllib")
         add_library(rest, line);
+      else if (keyword == "o")
+        name_faces(open_object_, rest.empty() ? Names{} : Names{rest});
+      else if (keyword == "g")
+        name_faces(open_groups_, words_of(rest));
     });
+    name_faces(open_object_, {});
+    name_faces(open_groups_, {});
     if (skipped_ > 0)
       warn(first_skipped_, std::to_string(skipped_) + (skipped_ == 1 ? " face" : " faces, from here on,") +
                                " of fewer than three corners skipped");
+    if (colour_outside_ > 0)
+      warn(colour_outside_, colour_scale_ > 1.0
+                                ? "vertex colours are whole numbers of 0 to 255: they are divided by 255"
+                                : "vertex colours outside 0 to 1 are clamped");
     find_materials();
     if (face_lines_.empty()) throw std::invalid_argument("has no faces");
     check_indices();
@@ -195,13 +214,17 @@ class Reader {
       mesh.positions.emplace_back(glm::clamp(p - offset, -kMostFloat, kMostFloat));
     std::vector<std::uint32_t> polygon;
     std::vector<glm::vec3> vertices;
+    std::vector<std::size_t> face_triangles;  // by face, its first one
     for (std::size_t face = 0; face < face_lines_.size(); ++face) {
       polygon.assign(corners_.begin() + at(face), corners_.begin() + at(face + 1));
       const std::size_t first = mesh.triangles.size();
+      if (!parts_.empty()) face_triangles.push_back(first);
       try {
         triangulate(mesh.positions, polygon, mesh.triangles);
       } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(at_line(face_lines_[face], error.what()));
+        mesh.triangles.resize(first);
+        warn(face_lines_[face], std::string("a face is skipped: ") + error.what());
+        continue;
       }
       std::for_each(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first), mesh.triangles.end(),
                     [](glm::uvec3& t) { std::swap(t.y, t.z); });
@@ -217,6 +240,11 @@ class Reader {
     if (!mesh.flags.empty()) {
       mesh.fill_normals(mesh.triangles.size());
       mesh.flags.resize(mesh.triangles.size());
+    }
+    face_triangles.push_back(mesh.triangles.size());
+    for (const auto& [name, face, count] : parts_) {
+      const std::size_t first = face_triangles[face], triangles = face_triangles[face + count] - first;
+      if (triangles > 0) mesh.parts.push_back({name, first, triangles});
     }
     mesh.clusters = clusters_of(mesh);
     return mesh;
@@ -242,22 +270,33 @@ class Reader {
   std::set<std::filesystem::path> libraries_;
   bool library_failed_ = false;
   std::size_t skipped_ = 0, first_skipped_ = 0;
+  double colour_scale_ = 255.0;     // vertex colours are divided by it; 1 once one is no byte's value
+  std::size_t colour_outside_ = 0;  // line of the first one outside 0 to 1; 0: none
+  bool odd_vertices_ = false;
+  std::vector<MeshPart> parts_, open_object_, open_groups_;  // of faces, not of triangles
 
   void warn(std::size_t line, const std::string& reason) { warnings_.push_back(at_line(line, reason)); }
   std::ptrdiff_t at(std::size_t face) const { return static_cast<std::ptrdiff_t>(face_ends_[face]); }
 
-  // x y z, or x y z weight, or x y z red green blue.
+  // x y z, x y z weight, x y z red green blue, or x y z weight red green blue.
   void add_vertex(std::string_view rest, std::size_t line) {
-    std::array<double, 6> numbers;
+    std::array<double, 7> numbers;
     std::size_t count = 0;
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++count) {
       const double number = parse_finite(word, line, count < 3 ? "coordinate" : "number");
       if (count < numbers.size()) numbers[count] = number;
     }
     if (count < 3) throw std::invalid_argument(at_line(line, "a vertex needs three coordinates"));
-    if (count >= 6) {
+    if (count == 6 || count == 7) {
       vertex_colours_.resize(positions_.size(), glm::vec3(std::numeric_limits<float>::quiet_NaN()));
-      vertex_colours_.emplace_back(numbers[3], numbers[4], numbers[5]);
+      vertex_colours_.emplace_back(numbers[count - 3], numbers[count - 2], numbers[count - 1]);
+      for (std::size_t i = count - 3; i < count; ++i) {
+        if (!(numbers[i] >= 0.0 && numbers[i] <= 255.0 && numbers[i] == std::floor(numbers[i])))
+          colour_scale_ = 1.0;
+        if (!(numbers[i] >= 0.0 && numbers[i] <= 1.0) && colour_outside_ == 0) colour_outside_ = line;
+      }
+    } else if (count > 4 && !std::exchange(odd_vertices_, true)) {
+      warn(line, "a vertex of " + std::to_string(count) + " numbers: those after the third are not used");
     }
     positions_.emplace_back(numbers[0], numbers[1], numbers[2]);
   }
@@ -294,6 +333,25 @@ class Reader {
     material_ = found->second.number;
   }
 
+  using Names = std::vector<std::string_view>;
+  // Of names, those before a '#' that stands alone: that begins a comment.
+  static Names words_of(std::string_view text) {
+    Names words;
+    for (std::string_view word = next_word(text); !word.empty() && word != "#"; word = next_word(text))
+      words.push_back(word);
+    return words;
+  }
+
+  // Ends the open parts, and opens one for each name.
+  void name_faces(std::vector<MeshPart>& open, const Names& names) {
+    for (MeshPart& part : open) {
+      part.count = face_lines_.size() - part.first;
+      if (part.count > 0) parts_.push_back(std::move(part));
+    }
+    open.clear();
+    for (const std::string_view name : names) open.push_back({std::string(name), face_lines_.size(), 0});
+  }
+
   // A library may follow the use of its materials.
   void find_materials() {
     colours_.resize(used_.size() + 1, kGrey);
@@ -311,15 +369,27 @@ class Reader {
                                    (unknown == 1 ? "" : ", nor " + std::to_string(unknown - 1) + " more"));
   }
 
-  // One name, with blanks in it, or several.
-  void add_library(std::string_view names, std::size_t line) {
+  bool exists(std::string_view library) const {
     std::error_code ignored;
-    const bool one = std::filesystem::exists(folder_ / names, ignored);
-    while (!names.empty()) {
-      const std::string_view name = one ? std::exchange(names, {}) : next_word(names);
-      if (!libraries_.insert((folder_ / name).lexically_normal()).second) continue;
+    return std::filesystem::exists(folder_ / library, ignored);
+  }
+
+  // Programs on Windows write paths with backslashes, which a name may have elsewhere.
+  std::string library_named(std::string_view name) const {
+    std::string with_slashes(name);
+    if (!exists(name)) std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
+    return with_slashes;
+  }
+
+  // One name, with blanks and '#' in it, if there is such a file; or else words up to a comment.
+  void add_library(std::string_view names, std::size_t line) {
+    Names found = words_of(without_comment(names));
+    if (!names.empty() && exists(library_named(names))) found = {names};
+    for (const std::string_view name : found) {
+      const std::filesystem::path library = folder_ / library_named(name);
+      if (!libraries_.insert(library.lexically_normal()).second) continue;
       try {
-        read_materials(folder_ / name, materials_);
+        read_materials(library, materials_);
       } catch (const std::runtime_error& error) {
         library_failed_ = true;
         warn(line, error.what());
@@ -354,11 +424,12 @@ class Reader {
   }
 
   std::uint32_t colour_of(std::size_t face, const std::vector<std::uint32_t>& polygon) const {
+    const double scale = colour_outside_ > 0 ? colour_scale_ : 1.0;
     glm::dvec3 sum(0.0);
     for (const std::uint32_t i : polygon) {
       if (i >= vertex_colours_.size() || std::isnan(vertex_colours_[i].x))
         return colours_[face_materials_[face]];
-      sum += glm::clamp(glm::dvec3(vertex_colours_[i]), 0.0, 1.0);
+      sum += glm::clamp(glm::dvec3(vertex_colours_[i]) / scale, 0.0, 1.0);
     }
     return to_rgb(sum / static_cast<double>(polygon.size()));
   }

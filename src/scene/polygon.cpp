@@ -1,22 +1,23 @@
 // Ear clipping (Meisters, "Polygons have ears", 1975; as in Eberly, "Triangulation by ear clipping"). A
 // corner is cut off if its triangle contains no concave corner of the remaining polygon. A cut changes only
 // the two neighbouring corners. So a corner that cannot be cut is tested again only after a neighbour is
-// removed. The concave corners are searched in a list sorted along the longer axis: large round polygons take
-// about n log n time.
+// removed. A k-d tree finds the concave corners in a triangle: large polygons take about n log n time.
 #include "scene/polygon.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace edgewise {
 
 namespace {
 
-// Corners visited before triangulate() gives up; about two seconds.
-constexpr std::uint64_t kMaxWork = 1'000'000'000;
+// Nodes of the tree visited before triangulate() gives up; a few seconds.
+constexpr std::uint64_t kMaxSteps = 200'000'000;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Projects the polygon along the axis closest to its normal, and makes it counter-clockwise.
 std::vector<glm::dvec2> flatten(std::span<const glm::vec3> positions,
@@ -39,100 +40,136 @@ double turn_at(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
 
+struct Box {
+  glm::dvec2 low, high;
+};
+struct Triangle {
+  glm::dvec2 a, b, c;  // counter-clockwise
+  Box box{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+};
+
+// True if all points of the box lie on the right of the line from a to b, as turn_at() says: rounding is
+// monotonic, so it suffices to ask for the corner farthest to the left.
+bool is_right_of(glm::dvec2 a, glm::dvec2 b, const Box& box) {
+  return turn_at(a, b, {b.y > a.y ? box.low.x : box.high.x, b.x > a.x ? box.high.y : box.low.y}) < 0.0;
+}
+
+// The corners of a polygon, in order, or some of them.
+struct Ring {
+  std::vector<std::uint32_t> previous, next;
+
+  explicit Ring(std::size_t corners) : previous(corners), next(corners) {
+    std::iota(next.begin(), next.end(), 1u);
+    std::iota(previous.begin() + 1, previous.end(), 0u);
+    previous.front() = next[corners - 2];
+    next.back() = 0;
+  }
+  void insert(std::uint32_t i, std::uint32_t before, std::uint32_t after) {
+    previous[i] = before, next[i] = after;
+    next[before] = previous[after] = i;
+  }
+  void remove(std::uint32_t i) {
+    next[previous[i]] = next[i];
+    previous[next[i]] = previous[i];
+  }
+};
+
 class EarClipper {
  public:
-  explicit EarClipper(std::vector<glm::dvec2> points) : points_(std::move(points)) {
+  explicit EarClipper(std::vector<glm::dvec2> points)
+      : points_(std::move(points)), ring_(points_.size()), candidates_(ring_) {
     const auto n = static_cast<std::uint32_t>(points_.size());
-    state_.assign(n, State::unknown);
-    for (std::uint32_t i = 0; i < n; ++i) {
-      previous_.push_back(i == 0 ? n - 1 : i - 1);
-      next_.push_back(i + 1 == n ? 0 : i + 1);
-    }
-    sort_concave();
+    state_.assign(n, State::candidate);
+    for (std::uint32_t i = 0; i < n; ++i)
+      if (is_concave(i)) {
+        concave_.push_back(i);
+        box_ = {glm::min(box_.low, points_[i]), glm::max(box_.high, points_[i])};
+      }
+    sort(concave_, 0);
   }
 
   // Calls emit(a, b, c) for every triangle, with indices into the polygon.
   template <typename Emit>
   void run(const Emit& emit) {
-    auto remaining = static_cast<std::uint32_t>(points_.size());
-    std::uint32_t corner = 1, rejected = 0;
-    while (remaining > 3) {
-      if (rejected < remaining && !is_ear(corner)) {
-        corner = next_[corner];
-        ++rejected;
-        spend(1);
-        continue;
+    std::uint32_t start = 1, corner = start;
+    for (std::size_t remaining = points_.size(); remaining > 3; --remaining) {
+      while (!is_ear(corner)) {
+        state_[corner] = State::blocked;
+        candidates_.remove(corner);
+        corner = candidates_.next[corner];
+        if (state_[corner] == State::candidate) continue;
+        // If no corner is an ear, the polygon crosses itself or is flat, and any corner may be cut.
+        corner = candidates_.next[start] = candidates_.previous[start] = start;
+        break;
       }
-      // If no corner is an ear, the polygon crosses itself or is flat, and any corner may be cut.
-      emit(previous_[corner], corner, next_[corner]);
-      remove(corner);
-      --remaining;
-      rejected = 0;
+      const std::uint32_t before = ring_.previous[corner], after = ring_.next[corner];
+      emit(before, corner, after);
+      make_candidate(before, candidates_.previous[corner], corner);
+      make_candidate(after, corner, candidates_.next[corner]);
+      state_[corner] = State::removed;
+      ring_.remove(corner), candidates_.remove(corner);
       // Skipping a corner gives compact triangles. Cutting the next corner would give a fan of slivers.
-      corner = next_[next_[corner]];
+      start = ring_.next[after];
+      corner = candidates_.next[after];
     }
-    emit(previous_[corner], corner, next_[corner]);
+    emit(ring_.previous[start], start, ring_.next[start]);
   }
 
  private:
-  enum class State : std::uint8_t { unknown, blocked, removed };
+  enum class State : std::uint8_t { candidate, blocked, removed };
 
-  bool is_concave(std::uint32_t i) const {
-    return turn_at(points_[previous_[i]], points_[i], points_[next_[i]]) <= 0.0;
+  void make_candidate(std::uint32_t i, std::uint32_t previous, std::uint32_t next) {
+    if (std::exchange(state_[i], State::candidate) != State::candidate) candidates_.insert(i, previous, next);
   }
 
-  void sort_concave() {
-    const auto [left, right] =
-        std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.x < b.x; });
-    const auto [low, high] =
-        std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.y < b.y; });
-    axis_ = right->x - left->x >= high->y - low->y ? 0 : 1;
-    for (std::uint32_t i = 0; i < points_.size(); ++i)
-      if (is_concave(i)) concave_.push_back(i);
-    std::sort(concave_.begin(), concave_.end(),
-              [this](std::uint32_t i, std::uint32_t j) { return points_[i][axis_] < points_[j][axis_]; });
+  bool is_concave(std::uint32_t i) const {
+    return turn_at(points_[ring_.previous[i]], points_[i], points_[ring_.next[i]]) <= 0.0;
+  }
+
+  // Makes a k-d tree: the middle element splits the others along `axis`, those of both halves along the other
+  // axis.
+  void sort(std::span<std::uint32_t> corners, int axis) {
+    if (corners.size() < 2) return;
+    const std::size_t middle = corners.size() / 2;
+    std::nth_element(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(middle), corners.end(),
+                     [&](auto i, auto j) { return points_[i][axis] < points_[j][axis]; });
+    sort(corners.first(middle), 1 - axis);
+    sort(corners.subspan(middle + 1), 1 - axis);
   }
 
   bool is_ear(std::uint32_t i) {
-    if (state_[i] == State::blocked) return false;
-    if (!is_concave(i) && is_empty(points_[previous_[i]], points_[i], points_[next_[i]])) return true;
-    state_[i] = State::blocked;
-    return false;
+    return !is_concave(i) &&
+           !blocks(concave_, 0, box_, {points_[ring_.previous[i]], points_[i], points_[ring_.next[i]]});
   }
 
-  // True if no concave corner lies in the triangle or on its sides. Corners at the same position as one of
-  // the triangle's do not count: a bridge to a hole passes each of its points twice.
-  bool is_empty(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-    const auto [low, high] = std::minmax({a[axis_], b[axis_], c[axis_]});
-    auto i = std::lower_bound(concave_.begin(), concave_.end(), low,
-                              [this](std::uint32_t j, double value) { return points_[j][axis_] < value; });
-    for (; i != concave_.end() && points_[*i][axis_] <= high; ++i) {
-      spend(1);
-      const glm::dvec2 p = points_[*i];
-      if (state_[*i] == State::removed || p == a || p == b || p == c) continue;
-      if (turn_at(a, b, p) >= 0.0 && turn_at(b, c, p) >= 0.0 && turn_at(c, a, p) >= 0.0 && is_concave(*i))
-        return false;
-    }
-    return true;
-  }
-
-  void remove(std::uint32_t i) {
-    state_[i] = State::removed;
-    next_[previous_[i]] = next_[i];
-    previous_[next_[i]] = previous_[i];
-    state_[previous_[i]] = state_[next_[i]] = State::unknown;
-  }
-
-  void spend(std::uint64_t work) {
-    work_ += work;
-    if (work_ > kMaxWork) throw std::invalid_argument("a polygon has too many concave corners");
+  // True if a concave corner of the k-d tree, whose corners are all in the box, lies in the triangle or on
+  // its sides. Corners at the same position as one of the triangle's do not count: a bridge to a hole passes
+  // each of its points twice.
+  bool blocks(std::span<const std::uint32_t> tree, int axis, const Box& box, const Triangle& triangle) {
+    const auto& [a, b, c, around] = triangle;
+    if (tree.empty() || is_right_of(a, b, box) || is_right_of(b, c, box) || is_right_of(c, a, box))
+      return false;
+    if (++steps_ > kMaxSteps)
+      throw std::invalid_argument("filling its " + std::to_string(points_.size()) +
+                                  " corners takes more than " + std::to_string(kMaxSteps) + " steps");
+    const std::size_t middle = tree.size() / 2;
+    const std::uint32_t i = tree[middle];
+    const glm::dvec2 p = points_[i];
+    if (state_[i] != State::removed && p != a && p != b && p != c && turn_at(a, b, p) >= 0.0 &&
+        turn_at(b, c, p) >= 0.0 && turn_at(c, a, p) >= 0.0 && is_concave(i))
+      return true;
+    Box before = box, after = box;
+    before.high[axis] = after.low[axis] = p[axis];
+    return (around.low[axis] <= p[axis] && blocks(tree.first(middle), 1 - axis, before, triangle)) ||
+           (around.high[axis] >= p[axis] && blocks(tree.subspan(middle + 1), 1 - axis, after, triangle));
   }
 
   std::vector<glm::dvec2> points_;
-  std::vector<std::uint32_t> previous_, next_, concave_;
+  Ring ring_, candidates_;  // candidates: the corners that may be ears
+  std::vector<std::uint32_t> concave_;
   std::vector<State> state_;
-  int axis_ = 0;
-  std::uint64_t work_ = 0;
+  Box box_{glm::dvec2(kInfinity), glm::dvec2(-kInfinity)};  // of the concave corners
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace

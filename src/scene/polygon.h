@@ -13,7 +13,7 @@ namespace edgewise {
 // Appends polygon.size() - 2 triangles that fill the polygon and have its winding. The polygon may be concave
 // and may have holes that a doubled edge connects to its outline. If it crosses itself or has no area, it is
 // not necessarily filled. `polygon` holds at least three indices into `positions`, which must be finite.
-// Throws std::invalid_argument if the polygon has so many concave corners that it would take minutes.
+// Throws std::invalid_argument if that would take minutes; some triangles may then be appended.
 void triangulate(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon,
                  std::vector<glm::uvec3>& triangles);
 

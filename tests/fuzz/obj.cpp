@@ -15,6 +15,10 @@ void check(const Scene& scene) {
     fuzz::require(!mesh.triangles.empty(), "a mesh without triangles");
     fuzz::require(mesh.colours.size() == mesh.triangles.size(), "colours and triangles differ in number");
     fuzz::require(mesh.flags.size() == mesh.normals.size(), "flags and normals differ in number");
+    for (const MeshPart& part : mesh.parts)
+      fuzz::require(part.count > 0 && part.first < mesh.triangles.size() &&
+                        part.count <= mesh.triangles.size() - part.first,
+                    "a part is empty, or names a triangle that is not there");
     for (const glm::vec3& n : mesh.normals)
       fuzz::require(n == glm::vec3(0.0f) || std::abs(glm::length(n) - 1.0f) < 1e-6f,
                     "a normal's length is not 1");

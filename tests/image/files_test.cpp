@@ -7,16 +7,18 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <numbers>
+#include <locale>
+#include <map>
 #include <random>
 #include <sstream>
 
 #include "edgewise/frontend.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
+#include "edgewise/visible.h"
 #include "frontend/shade.h"
 #include "message_of.h"
-#include "scene/polygon.h"
+#include "obj_text.h"
 #include "temp_dir.h"
 
 namespace edgewise {
@@ -135,8 +137,6 @@ TEST_P(SameTriangle, IsReadTheSame) {
   EXPECT_EQ(mesh.positions.at(t.z), glm::vec3(4, 5, 6));
 }
 
-const std::string kCorners = "v 1 2 3\nv 4 5 6\nv 7 8 10\n";
-
 INSTANTIATE_TEST_SUITE_P(
     Files, SameTriangle,
     testing::Values(
@@ -158,6 +158,9 @@ INSTANTIATE_TEST_SUITE_P(
         GoodObj{"FacesOfFewCorners", kCorners + "f 1 2\nf 1 2 3\nf 3\nf -1 4\n"},
         GoodObj{"ACommentStartsAtAWord", kCorners + "f 1 2 3 #\nusemtl a#b\ng #\n\t#f 1 2\n"},
         GoodObj{"ACommentIsNotContinued", "v 1 2 3 # C:\\\n# D:\\\nv 4 5 6\nv 7 8 10\nf 1 2 3\n"},
+        GoodObj{"ACommentAfterANameIsNotContinued", "usemtl a # C:\\\n" + kCorners + "g a # C:\\\nf 1 2 3\n"},
+        GoodObj{"VerticalTabsAndFormFeeds",
+                "\f\nv\v1 2\f3\v\n\v\f\n\fv 4 5 6\nv 7 8 \\\f\n\v10\f# x\nf 1\v2\f3\n"},
         GoodObj{"WeightsAndColours", "v 1 2 3 1\nv 4 5 6 0.5\nv 7 8 10 1 0 0\nf 1 2 3\n"},
         GoodObj{"OtherStatements",
                 "mtllib none.mtl\no a\ng b c\nusemtl d\ns off\nvp 1\nl 1 2\np 1\nt x "
@@ -208,8 +211,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"IndexIsText", kCorners + "f 1 2 x\n", "line 4: 'x' is not a vertex index"},
         BadFile{"IndexHasThreeSlashes", kCorners + "f 1 2 3/1/1/1\n",
                 "line 4: '3/1/1/1' is not a vertex index"},
-        BadFile{"VerticalTabAfterKeyword", kCorners + "f\v1 2 3\n",
-                "line 4: # or control character in 'f?1'"},
         BadFile{"IndexHasTail", kCorners + "f 1 2 3/\x1B[31m\n", "line 4: '3/?[31m' is not a vertex index"},
         BadFile{"NoCorners", kCorners + "f\n", "line 4: a face without corners"},
         BadFile{"MicrosoftsInfinity", "v 1 2 1.#INF\n", "line 1: '1.#INF' is not a finite coordinate"},
@@ -228,21 +229,6 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& p) { return std::string(p.param.name); });
 
 // ---- OBJ: what files say of colours, normals and places
-
-struct ReadObj {
-  Scene scene;
-  ObjReport report;
-  const Mesh& mesh() const { return scene.meshes[0]; }
-};
-ReadObj read_with_report(const TempDir& dir, const std::string& text, bool recentre = false) {
-  ReadObj read;
-  read.scene = read_obj(dir.write("a.obj", text), {.recentre = recentre}, &read.report);
-  for (std::string& warning : read.report.warnings) {
-    EXPECT_TRUE(warning.starts_with((dir.path() / "a.obj: ").string())) << warning;
-    warning.erase(0, (dir.path() / "a.obj: ").string().size());
-  }
-  return read;
-}
 
 using Colours = std::vector<std::uint32_t>;
 const std::uint32_t kLightGrey = rgb(200, 200, 200);
@@ -321,6 +307,78 @@ TEST(ObjFile, FromADescriptorHasItsLibrariesInTheCurrentFolder) {
   std::fclose(file);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_TRUE(report.warnings[0].starts_with(path + ": line 1: no.mtl: ")) << report.warnings[0];
+}
+
+struct Coloured {
+  const char* numbers;  // after x y z
+  std::uint32_t colour;
+  const char* warning;
+};
+
+TEST(ObjFile, ColoursMayBeBytesAndFollowAWeight) {
+  const TempDir dir;
+  const char* const bytes = "line 2: vertex colours are whole numbers of 0 to 255: they are divided by 255";
+  const char* const clamped = "line 2: vertex colours outside 0 to 1 are clamped";
+  const std::string unused = " numbers: those after the third are not used";
+  for (const auto& [numbers, colour, warning] :
+       std::vector<Coloured>{{"1 0 0", rgb(255, 0, 0), nullptr},
+                             {"0.5 1.0 0.2", rgb(128, 255, 51), nullptr},
+                             {"200 30 40", rgb(200, 30, 40), bytes},
+                             {"255.0 0 1e0", rgb(255, 0, 1), bytes},
+                             {"1.5 1 0", rgb(255, 255, 0), clamped},
+                             {"200 30 40.5", rgb(255, 255, 255), clamped},
+                             {"256 0 0", rgb(255, 0, 0), clamped},
+                             {"-1 0 1", rgb(0, 0, 255), clamped},
+                             {"1 1 0 0", rgb(255, 0, 0), nullptr},
+                             {"0.5 0 0.2 1", rgb(0, 51, 255), nullptr},
+                             {"1 200 30 40", rgb(200, 30, 40), bytes},
+                             {"255 1 0 0", rgb(255, 0, 0), nullptr},
+                             {"0.5", kLightGrey, nullptr},
+                             {"1 0", kLightGrey, "line 2: a vertex of 5"},
+                             {"1 0 0 1 1", kLightGrey, "line 2: a vertex of 8"}}) {
+    std::string text = "\n";
+    for (const char* const at : {"0 0 0 ", "1 0 0 ", "0 1 0 "})
+      text += std::string("v ") + at + numbers + '\n';
+    const ReadObj read = read_with_report(dir, text + "f 1 2 3\n");
+    EXPECT_EQ(read.mesh().colours, Colours{colour}) << numbers;
+    std::vector<std::string> expected;
+    if (warning != nullptr) expected.push_back(warning + (colour == kLightGrey ? unused : ""));
+    EXPECT_EQ(read.report.warnings, expected) << numbers;
+  }
+}
+
+// A hub of 60,000 holes without area: its corners are at three places, so no search can leave any out.
+TEST(ObjFile, AFaceOfExcessiveCostIsSkipped) {
+  std::string face;
+  for (int i = 0; i < 40000; ++i) face += i % 2 == 0 ? " 1 2 3" : i % 4 == 1 ? " 1 2 3 3 2 1" : " 3 2 1";
+  const TempDir dir;
+  const ReadObj read =
+      read_with_report(dir, kCorners + "o a\nf 1 2 3\nf" + face + "\no b\nf" + face + "\nf 3 2 1\n");
+  EXPECT_EQ(read.mesh().triangles, (std::vector<glm::uvec3>{{0, 2, 1}, {2, 0, 1}}));
+  EXPECT_EQ(objects(read.scene), (std::map<std::string, std::vector<std::uint32_t>>{{"a", {0}}, {"b", {1}}}));
+  ASSERT_EQ(read.report.warnings.size(), 2u);
+  EXPECT_EQ(read.report.warnings[0],
+            "line 6: a face is skipped: filling its 150000 corners takes more than 200000000 steps");
+}
+
+// Digits in groups and a decimal comma, as in a program's global locale.
+TEST(ObjFile, NumbersDoNotFollowTheLocale) {
+  struct Numerals : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  const std::string text = "v 1234.5 0.25 1e-400\nv 12345 1.e1 0\nv 0 1 0 1234.5 0.5 1\nf 1 2 3\n";
+  const Mesh expected = read_mesh(text);
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Numerals));
+  const Mesh mesh = read_mesh(text);
+  const TempDir dir;
+  const auto path = dir.write("a.obj", std::string(2000, '\n') + "v 1,5 0 0\n");
+  const std::string message = message_of([&] { read_obj(path); });
+  std::locale::global(before);
+  EXPECT_EQ(mesh.positions, expected.positions);
+  EXPECT_EQ(mesh.positions.at(0), glm::vec3(1234.5f, 0.25f, 0.0f));
+  EXPECT_EQ(message, path.string() + ": line 2001: '1,5' is not a finite coordinate");
 }
 
 // If all vertices of a face have one. They come before the material's.
@@ -425,119 +483,6 @@ TEST(ObjFile, FoldersAndMissingFilesAreRefused) {
   const TempDir dir;
   EXPECT_EQ(message_of([&] { read_obj(dir.path()); }), dir.path().string() + ": is a directory");
   EXPECT_NE(message_of([&] { read_obj(dir.path() / "none.obj"); }).find("No such file"), std::string::npos);
-}
-
-// ---- Polygons
-
-using Polygon = std::vector<glm::dvec2>;
-
-double twice_area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// All triangles have the polygon's winding, and their areas add up to its area: they fill it exactly once.
-void expect_filled(const Polygon& polygon, const std::string& what) {
-  double area = 0.0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    area += twice_area(polygon[0], polygon[i], polygon[i + 1]);
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> indices;
-    for (const glm::dvec2 p : polygon) {
-      const double in_3d[3] = {p.x, p.y, 3.0};
-      positions.emplace_back(in_3d[axis % 3], in_3d[(axis + 1) % 3], in_3d[(axis + 2) % 3]);
-      indices.push_back(static_cast<std::uint32_t>(indices.size()));
-    }
-    std::vector<glm::uvec3> triangles;
-    triangulate(positions, indices, triangles);
-    EXPECT_EQ(triangles.size(), polygon.size() - 2) << what;
-    double sum = 0.0, smallest = 0.0;
-    for (const glm::uvec3 t : triangles) {
-      const double part = twice_area(polygon[t.x], polygon[t.y], polygon[t.z]) * (area < 0 ? -1 : 1);
-      sum += part;
-      smallest = std::min(smallest, part);
-    }
-    EXPECT_GE(smallest, -1e-6 * std::fabs(area)) << what;
-    EXPECT_NEAR(sum, std::fabs(area), 1e-5 * std::fabs(area)) << what;
-  }
-}
-
-void expect_filled_both_ways(Polygon polygon, const std::string& what) {
-  for (std::size_t turn = 0; turn < std::min<std::size_t>(polygon.size(), 12); ++turn) {
-    std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
-    expect_filled(polygon, what);
-    std::reverse(polygon.begin(), polygon.end());
-    expect_filled(polygon, what + " reversed");
-  }
-}
-
-TEST(Polygon, ConcaveShapesAreFilledOnceAtEveryPosition) {
-  for (const glm::dvec2 at : {glm::dvec2(0, 0), glm::dvec2(100, 50), glm::dvec2(-30, 7)}) {
-    const auto moved = [&](Polygon polygon) {
-      for (glm::dvec2& p : polygon) p += at;
-      return polygon;
-    };
-    expect_filled_both_ways(moved({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), "square");
-    expect_filled_both_ways(moved({{0, 0}, {10, 1}, {0, 2}, {9, 1}}), "dart");
-    expect_filled_both_ways(moved({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}), "L");
-    expect_filled_both_ways(moved({{0, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 2}}), "square with midpoints");
-    expect_filled_both_ways(
-        moved({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 3}, {3, 6}, {6, 6}, {6, 3}, {3, 3}}),
-        "square with a bridged hole");
-    Polygon comb{{0, 0}, {7, 0}, {7, 5}, {6, 5}};
-    for (const int x : {6, 4, 2}) {
-      const glm::dvec2 gap[] = {{x, 1}, {x - 1, 1}, {x - 1, 5}, {x - 2, 5}};
-      comb.insert(comb.end(), std::begin(gap), std::end(gap));
-    }
-    expect_filled_both_ways(moved(comb), "comb");
-  }
-}
-
-TEST(Polygon, RandomStarsAreFilledOnce) {
-  std::mt19937 random(1);
-  for (int trial = 0; trial < 200; ++trial) {
-    Polygon star;
-    const std::size_t corners = 4 + random() % 40;
-    for (std::size_t i = 0; i < corners; ++i) {
-      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
-      const double radius = 1.0 + static_cast<double>(random() % 1000) / 100.0;
-      star.push_back(glm::dvec2(std::cos(angle), std::sin(angle)) * radius);
-    }
-    expect_filled(star, "star " + std::to_string(trial));
-  }
-}
-
-TEST(Polygon, OfNoAreaOrSelfCrossingIsTriangulated) {
-  const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}, {3, 3, 0}};
-  for (const std::vector<std::uint32_t>& polygon :
-       {std::vector<std::uint32_t>{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 0, 0, 0, 0}, {0, 2, 2, 1, 0, 3}}) {
-    std::vector<glm::uvec3> triangles;
-    triangulate(positions, polygon, triangles);
-    EXPECT_EQ(triangles.size(), polygon.size() - 2);
-  }
-}
-
-TEST(Polygon, OfManyCornersIsFilledOnce) {
-  Polygon circle, comb{{20000, -1}, {0, -1}};
-  for (int i = 0; i < 100000; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 100000;
-    circle.emplace_back(std::cos(angle), std::sin(angle));
-  }
-  for (int i = 0; i < 20000; ++i) comb.emplace_back(i, i % 2);
-  expect_filled(circle, "circle");
-  expect_filled(comb, "comb");
-}
-
-TEST(Polygon, OfExcessiveCostIsRefused) {
-  std::vector<glm::vec3> positions;
-  std::vector<std::uint32_t> polygon;
-  std::mt19937 random(1);
-  for (std::uint32_t i = 0; i < 200000; ++i) {
-    positions.emplace_back(random() % 4096, random() % 4096, 0);
-    polygon.push_back(i);
-  }
-  std::vector<glm::uvec3> triangles;
-  EXPECT_THROW(triangulate(positions, polygon, triangles), std::invalid_argument);
 }
 
 }  // namespace

@@ -73,6 +73,21 @@ def test_an_obj_file_is_drawn_as_by_the_program(obj, tmp_path):
     assert (colours != edgewise.BLACK).sum() > 500
 
 
+def test_objects_give_masks(obj):
+    obj.write_bytes(OBJ.replace("f 1", "o front #1\ng all\nf 1", 1).replace("f 3", "o r\u00fcck\ng\nf 3").encode() +
+                    b"o \xff\nf 4 1 5\n")
+    drawn = edgewise.Scene.read_obj(obj)
+    objects = drawn.objects()
+    assert {name: list(ids) for name, ids in objects.items()} == {
+        "all": [0, 1], "front #1": [0, 1], "r\u00fcck": [2, 3], "\udcff": [4]}
+    drawn.add_instance(0, np.diag([0.5, 0.5, 0.5, 1.0]))
+    assert list(drawn.objects()["front #1"]) == [0, 1, 5, 6]
+    frame = drawn.draw(drawn.camera(ASPECT), SIZE, ids=True)
+    mask = np.isin(frame.payload, objects["front #1"])
+    assert mask.any() and np.array_equal(mask, frame.payload <= 1)
+    assert scene().objects() == {}
+
+
 def test_ids_have_the_programs_colours(tri, tmp_path):
     program("render", tri, "--payload", "id", "-o", tmp_path / "ids.png")
     assert np.array_equal(edgewise.read_image(tmp_path / "ids.png"), edgewise.id_colours(stream().draw(ids=True).payload))

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -184,6 +185,22 @@ TEST(CInterface, TellsWhatIsSeen) {
   EXPECT_EQ(edgewise_first_ids(both.c, first.data(), 2), EDGEWISE_OK);
   EXPECT_EQ(first, first_ids(both.scene));
 
+  EXPECT_EQ(edgewise_name_triangles(both.c, 0, 1, 2, "rear"), EDGEWISE_OK);
+  EXPECT_EQ(edgewise_name_triangles(both.c, 0, 0, 1, "front"), EDGEWISE_OK);
+  EXPECT_EQ(edgewise_name_triangles(both.c, 0, 2, 1, "front"), EDGEWISE_OK);
+  both.scene.meshes[0].parts = {{"rear", 1, 2}, {"front", 0, 1}, {"front", 2, 1}};
+  using Objects = std::map<std::string, std::vector<std::uint32_t>>;
+  Objects named;
+  EXPECT_EQ(edgewise_objects(
+                both.c,
+                [](void* to, const char* name, const std::uint32_t* object, std::size_t size) {
+                  (*static_cast<Objects*>(to))[name].assign(object, object + size);
+                },
+                &named),
+            EDGEWISE_OK);
+  EXPECT_EQ(named, (Objects{{"front", {0, 2, 3, 5}}, {"rear", {1, 2, 4, 5}}}));
+  EXPECT_EQ(named, objects(both.scene));
+
   std::vector<float> uv(2 * kWidth * kHeight), distance(kWidth * kHeight), uv2 = uv, distance2 = distance;
   EXPECT_EQ(
       edgewise_barycentrics(both.c, &options, frame.c(), uv.data(), 2 * kWidth, distance.data(), kWidth),
@@ -344,6 +361,11 @@ TEST(CInterface, TellsErrorsAndChangesNothing) {
   fails(edgewise_pixels_per_mesh(frame.c(), both.c, counts, 2), "2 meshes given instead of 1");
   fails(edgewise_first_ids(both.c, first, 3), "3 instances given instead of 2");
   fails(edgewise_first_ids(both.c, nullptr, 2), "first is null");
+  fails(edgewise_objects(both.c, nullptr, nullptr), "each is null");
+  fails(edgewise_name_triangles(both.c, 0, 0, 1, nullptr), "name is null");
+  fails(edgewise_name_triangles(both.c, 1, 0, 1, "a"), "mesh 1 of 1");
+  fails(edgewise_name_triangles(both.c, 0, 2, 2, "a"), "2 triangles from 2 on does not fit a mesh of 3");
+  fails(edgewise_name_triangles(both.c, 0, SIZE_MAX, 2, "a"), "does not fit a mesh of 3");
   EXPECT_TRUE(std::all_of(counts, counts + 3, [](std::uint32_t n) { return n == 5; }));
   EXPECT_TRUE(std::all_of(first, first + 3, [](std::size_t n) { return n == 5; }));
   for (const double wrong : {0.0, std::numeric_limits<double>::infinity(), std::nan("")}) {

@@ -103,6 +103,20 @@ TEST(Visible, InstancesAndMeshesHaveTheirTrianglesPixels) {
   EXPECT_EQ(message_of([&] { first_ids(scene); }), "an instance names mesh 3 of 3");
 }
 
+TEST(Visible, ObjectsHaveTheIdsOfTheirPartsInAllInstances) {
+  Scene scene;
+  scene.meshes = {square(), Mesh{}, square()};
+  scene.meshes[0].parts = {{"whole", 0, 2}, {"none", 2, 0}, {"half", 1, 1}, {"half", 0, 1}, {"half", 0, 2}};
+  scene.meshes[2].parts = {{"half", 1, 1}};
+  scene.instances = {{.mesh = 0}, {.mesh = 1}, {.mesh = 2}, {.mesh = 0}};
+  using Objects = std::map<std::string, std::vector<std::uint32_t>>;
+  EXPECT_EQ(objects(scene), (Objects{{"whole", {0, 1, 4, 5}}, {"none", {}}, {"half", {0, 1, 3, 4, 5}}}));
+  scene.meshes[2].parts.push_back({"beyond", 1, 2});
+  EXPECT_EQ(message_of([&] { objects(scene); }), "a part of 2 triangles from 1 on does not fit a mesh of 2");
+  scene.instances[2].mesh = 3;
+  EXPECT_EQ(message_of([&] { objects(scene); }), "an instance names mesh 3 of 3");
+}
+
 TEST(Visible, HoldsTheHighestId) {
   std::vector<std::uint32_t> depth{5, contract::kDepthClear, 5, 5}, id{kMaxTriangles - 1, 9, 63, 64};
   const ConstFrameView frame{depth.data(), id.data(), 2, 2, 2};

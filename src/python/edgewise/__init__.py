@@ -370,6 +370,14 @@ class Scene(_Queries, _Drawable):
         return self._native.barycentrics(*_check.matrices(_check.cameras(camera, "camera")), *_check.frame(frame),
                                          *_check.id_options(first_id, cull, threads))
 
+    def objects(self) -> dict[str, NDArray[np.uint32]]:
+        """The ids of the triangles of each object and group that an OBJ file names, ascending, through all instances.
+
+        ``np.isin(frame.payload, scene.objects()["wheel"])`` is the mask of one, in a frame of ids with a first_id of 0. A
+        triangle has an object and any number of groups. Names that are no UTF-8 are decoded as those of files.
+        """
+        return self._native.objects()
+
     def pixels_per_instance(self, frame: Frame) -> NDArray[np.uint32]:
         """The number of pixels of each instance in a frame as of pixels_per_triangle(): shape (instances,), or (views,
         instances)."""
