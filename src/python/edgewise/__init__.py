@@ -19,19 +19,19 @@ from 0 on count; MemoryError. All work that takes long releases the GIL.
 from __future__ import annotations
 
 import math
-import warnings
-from os import PathLike, fspath
+from os import PathLike
 from typing import Any, NamedTuple, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from .pictures import (BLACK as BLACK, Difference as Difference, colours as _colours, diff as diff, read_image as read_image,
+                       read_pfm as read_pfm, warn as _warn, write_image as write_image, write_pfm as write_pfm)
 
 __version__: str = _native.VERSION
 BACKENDS: tuple[str, ...] = tuple(_native.BACKENDS)  # all draw the same pictures
 BACKGROUND_ID = 0xFFFFFFFF  # of pixels that no triangle covers, in frames of ids
-BLACK = 0xFF000000
 DEPTH_CLEAR: int = _native.DEPTH_CLEAR  # the depth of pixels that no triangle covers; all others are smaller
 IDENTITY = np.eye(4)
 UNSTABLE: tuple[str, ...] = tuple(_native.UNSTABLE)  # the meanings of 0, 1, ... in Portable.reasons
@@ -54,17 +54,6 @@ class Frame(NamedTuple):
     """
     payload: NDArray[np.uint32] | None
     depth: NDArray[np.uint32]
-
-
-class Difference(NamedTuple):
-    """How two pictures or depth maps differ outside a mask."""
-    differing: int  # pixels
-    largest: float  # difference of a channel or of a depth
-    scale: int  # what `largest` is out of: 255, or 65535 if a file has 16 bits; 1 for depths
-    first: tuple[int, int] | None  # x, y of the first pixel that differs, row by row
-    masked: int  # pixels of the mask
-    differing_in_mask: int
-    picture: NDArray[np.uint32]  # grey where equal, red where not
 
 
 class Portable(NamedTuple):
@@ -201,46 +190,6 @@ def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int6
     return np.concatenate([*views, np.empty(0, np.uint32)]), np.cumsum([0, *map(len, views)])
 
 
-def read_image(path: _Path) -> NDArray[np.uint32]:
-    """A PNG or PPM file as colours 0xFFBBGGRR, shape (height, width). Alpha is ignored, 16-bit samples are rounded to 8."""
-    return _native.read_image(_readable(path))
-
-
-def write_image(path: _Path, colours: ArrayLike) -> None:
-    """Writes colours as an 8-bit PNG or PPM, by the extension.
-
-    colours: shape (height, width), uint32, 0xAABBGGRR; or (height, width, 3 or 4), uint8: R, G, B. Alpha is ignored.
-    """
-    _native.write_image(path, _colours(colours))
-
-
-def read_pfm(path: _Path) -> NDArray[np.float32]:
-    """The depth map of a PFM file, shape (height, width)."""
-    return _native.read_pfm(_readable(path))
-
-
-def write_pfm(path: _Path, depth: ArrayLike) -> None:
-    """Writes a depth map, such as depth01() of a frame's depth, shape (height, width), as float32."""
-    _native.write_pfm(path, _array(depth, np.float32))
-
-
-def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | None = None) -> Difference:
-    """Compares two pictures or two depth maps, as `edgewise diff` does.
-
-    a, b: files (.png, .ppm; .pfm), or arrays: colours as write_image() takes them, or depths of any float type, which are
-    compared as float32. Planes of frames are neither: compare id_colours(ids) and depth01(depth). mask: a file, or an array of
-    shape (height, width), or a picture. Pixels count as equal where it is not black or 0, so Portable.reasons is one.
-    """
-    depths = [fspath(x).lower().endswith(".pfm") if _is_path(x) else np.asarray(x).dtype.kind == "f" for x in (a, b)]
-    if depths[0] != depths[1]:
-        raise ValueError("a picture cannot be compared with a depth map")
-    if mask is not None and not _is_path(mask):
-        mask = _mask(mask)
-    if depths[0]:
-        return Difference(*_native.diff_depths(*(_readable(x) if _is_path(x) else _array(x, np.float32) for x in (a, b)), mask))
-    return Difference(*_native.diff_pictures(*(_readable(x) if _is_path(x) else _colours(x) for x in (a, b)), mask))
-
-
 class _Drawable:
     """What scenes and streams share. They keep the memory of their draws, so later ones are faster than the first."""
     _native: Any
@@ -302,9 +251,8 @@ class Scene(_Drawable):
         Warns of what the reader skips, such as missing materials.
         """
         scene = cls.__new__(cls)
-        scene._native, notes = _native.read_obj(_readable(path))
-        for note in notes:
-            warnings.warn(note, stacklevel=2)
+        scene._native, notes = _native.read_obj(path)
+        _warn(notes)
         return scene
 
     def add_mesh(self, positions: ArrayLike, triangles: ArrayLike, *, colours: ArrayLike | None = None,
@@ -436,7 +384,7 @@ class Stream(_Drawable):
     def read_tri(cls, path: _Path) -> Stream:
         """Reads a .tri file, such as `edgewise capture` writes."""
         stream = cls.__new__(cls)
-        stream._native = _native.read_tri(_readable(path))
+        stream._native = _native.read_tri(path)
         return stream
 
     def write_tri(self, path: _Path) -> None:
@@ -502,36 +450,6 @@ def _indices(triangles: ArrayLike) -> NDArray[np.uint32]:
         if array.min() < 0 or array.max() > 0xFFFFFFFF:
             raise ValueError("an index of triangles is out of range")
     return _array(array, np.uint32)
-
-
-def _colours(colours: ArrayLike) -> NDArray[np.uint32]:
-    array = np.asarray(colours)
-    if array.dtype == np.uint8 and array.ndim and array.shape[-1] in (3, 4):
-        r, g, b = (array[..., i].astype(np.uint32) for i in range(3))
-        return r | g << np.uint32(8) | b << np.uint32(16) | np.uint32(BLACK)
-    if array.size and (array.dtype.kind not in "iu" or array.dtype == np.uint8):
-        raise ValueError("colours must be integers 0xAABBGGRR, or R, G, B of type uint8")
-    if array.size and array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
-        raise ValueError("a colour is outside 0 to 0xFFFFFFFF")
-    return _array(array, np.uint32)
-
-
-def _mask(mask: ArrayLike) -> NDArray[np.uint32]:
-    """A picture that is black where pixels count."""
-    array = np.asarray(mask)
-    if array.dtype == np.uint32 or array.dtype == np.uint8 and array.ndim == 3:
-        return _colours(array)
-    return np.where(array != 0, np.uint32(0xFFFFFFFF), np.uint32(BLACK))
-
-
-def _is_path(value: Any) -> bool:
-    return isinstance(value, (str, PathLike))
-
-
-def _readable(path: _Path) -> _Path:
-    """Raises FileNotFoundError, PermissionError, ... as Python does."""
-    with open(path, "rb"):
-        return path
 
 
 def _needs(found: tuple) -> Needs:
