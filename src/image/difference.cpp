@@ -27,7 +27,7 @@ std::string size_text(int width, int height) {
 template <typename A, typename B>
 void require_same_size(const A& a, const B& b, const char* of = "") {
   if (a.width != b.width || a.height != b.height)
-    throw std::invalid_argument("different sizes: " + size_text(a.width, a.height) + " and " +
+    throw std::invalid_argument("sizes differ: " + size_text(a.width, a.height) + " and " +
                                 size_text(b.width, b.height) + " pixels" + of);
 }
 

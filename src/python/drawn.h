@@ -57,11 +57,11 @@ auto with_file(F&& f) {
   try {
     return f();
   } catch (const FileError& error) {
-    const py::str reason = text_of(error.reason), path = text_of(error.path.string());
     const py::object os_error = py::reinterpret_borrow<py::object>(PyExc_OSError);
-    PyErr_SetObject(
-        PyExc_OSError,
-        (error.code != 0 ? os_error(error.code, reason, path) : os_error(text_of(error.what()))).ptr());
+    const py::object made = error.code != 0
+                                ? os_error(error.code, text_of(error.reason), text_of(error.path.string()))
+                                : os_error(text_of(error.what()));
+    PyErr_SetObject(py::type::of(made).ptr(), made.ptr());
   } catch (const std::runtime_error& error) {
     PyErr_SetObject(PyExc_OSError, text_of(error.what()).ptr());
   }

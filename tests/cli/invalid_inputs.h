@@ -222,7 +222,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise verify $IN/nan.tri --json $DIR/a.json", 0, "", "a.json"},
     {"edgewise diff $IN/text.png $IN/text.png -o $DIR/a.png", 2, "text.png"},
     {"edgewise diff $IN/cut.ppm $IN/cut.ppm -o $DIR/a.png", 2, "cut.ppm"},
-    {"edgewise diff $IN/small.ppm $IN/large.ppm -o $DIR/a.png", 2, "different sizes"},
+    {"edgewise diff $IN/small.ppm $IN/large.ppm -o $DIR/a.png", 2, "sizes differ: 1x1 and 2x1 pixels"},
     {"edgewise diff $IN/small.ppm $IN/depth.pfm -o $DIR/a.png", 2, "cannot be compared"},
     {"edgewise diff $IN/small.ppm $IN/none.ppm -o $DIR/a.png", 2, "none.ppm"},
     {"edgewise diff $IN/small.ppm $IN/mesh.stl -o $DIR/a.png", 2, "mesh.stl: is neither a PNG, "},
@@ -302,6 +302,11 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "cp $DIR/older.ppm $IN/; \"$EDGEWISE\" render cube -o $IN/older.ppm;"
      "status=$?; cat $IN/older.ppm >&3; exit $status' 3>$DIR/older",
      2, "older.ppm: cannot be replaced in its folder: No space left on device", "older older.ppm"},
+
+    // ---- Without /proc, by which unnamed files get their names
+    {"isolated 'mount -t tmpfs none /proc; \"$EDGEWISE\" render cube -o $DIR/a.png'", 0, "", "a.png"},
+    {"isolated 'mount -t tmpfs none /proc; ulimit -f 4; \"$EDGEWISE\" render torus-knot -o $DIR/a.png'", 2,
+     "a.png: cannot be written: File too large"},
 
     // ---- Output files that cannot be written
     {"edgewise render cube --depth - --format ppm", 2, "--format needs --output: --depth always writes PFM"},

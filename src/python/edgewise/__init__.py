@@ -264,7 +264,7 @@ class Scene(_Drawable):
         side that is seen. Triangles with NaN or infinity are not drawn. ValueError for an index out of range.
         """
         return self._native.add_mesh(_array(positions, np.float32), _indices(triangles),
-                                     None if colours is None else _colours(colours), two_sided)
+                                     None if colours is None else _colours(colours, of_mesh=True), two_sided)
 
     def add_instance(self, mesh: int, matrix: ArrayLike = IDENTITY) -> int:
         """Places a mesh in the world by an affine matrix, shape (4, 4), and returns the instance's number."""
@@ -378,7 +378,7 @@ class Stream(_Drawable):
     def __init__(self, vertices: ArrayLike, size: tuple[int, int], *, colours: ArrayLike | None = None):
         """vertices: shape (n, 3, 3), float32: per triangle and vertex, x and y in pixels, y down, and z in 0 ... 1, where
         smaller z is nearer. size: width, height in pixels of the image they are made for. colours: as Scene.add_mesh()."""
-        self._native = _native.stream(_array(vertices, np.float32), *size, None if colours is None else _colours(colours))
+        self._native = _native.stream(_array(vertices, np.float32), *size, None if colours is None else _colours(colours, of_mesh=True))
 
     @classmethod
     def read_tri(cls, path: _Path) -> Stream:

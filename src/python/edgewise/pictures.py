@@ -75,13 +75,15 @@ def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | N
     return Difference(*found)
 
 
-def colours(values: ArrayLike) -> NDArray[np.uint32]:
-    """0xAABBGGRR. ValueError for types that could mean anything else."""
+def colours(values: ArrayLike, of_mesh: bool = False) -> NDArray[np.uint32]:
+    """0xAABBGGRR. ValueError for types that could mean anything else. A mesh's may be integers of 64 bits."""
     array = np.asarray(values)
     if array.dtype == np.uint8 and array.ndim and array.shape[-1] in (3, 4):
-        channels = [array[..., i].astype(np.uint32) << np.uint32(8 * i) for i in range(array.shape[-1])]
-        return np.bitwise_or.reduce([*channels, *([np.full_like(channels[0], BLACK)] if len(channels) == 3 else [])])
-    if isinstance(values, (list, tuple)) and array.dtype == np.int64 and array.size:  # Python's integers have no width
+        alpha = array[..., 3:] if array.shape[-1] == 4 else np.full_like(array[..., :1], 255)
+        r, g, b, a = np.moveaxis(np.concatenate([array[..., :3], alpha], axis=-1).astype(np.uint32), -1, 0)
+        return r | g << np.uint32(8) | b << np.uint32(16) | a << np.uint32(24)
+    wide = array.dtype.kind in "iu" and array.dtype.itemsize == 8
+    if array.size and wide and (of_mesh or isinstance(values, (list, tuple))):  # Python's integers have no width
         if array.min() < 0 or array.max() > 0xFFFFFFFF:
             raise ValueError("a colour is outside 0 to 0xFFFFFFFF")
     elif array.size and (array.dtype.kind != "u" or array.dtype.itemsize != 4):
