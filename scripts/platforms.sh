@@ -108,8 +108,7 @@ program_on() {
   unpack_sysroot "$sysroot" "$2"
   build edgewise_program edgewise_hashes edgewise_library_tests
   compare_hashes --frames 1000
-  # QEMU 7.2 cannot fork while threads run.
-  noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-AtomicFile.*WhileTheProcessEnds'
+  noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1
   noted facts_are_those_of_x86_64 "${run[@]}"
 }
 # Counts the instructions of frames, since times in an emulator say nothing: results/instructions.json.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <ostream>
 #include <streambuf>
+#include <string>
 
 namespace edgewise {
 
@@ -26,45 +27,43 @@ class FileBuffer final : public std::streambuf {
   int descriptor_ = -1, error_ = 0;
 };
 
-// Writes to a temporary file beside `path` and renames it on commit(). Without commit(), and on SIGINT,
-// SIGTERM, SIGHUP or SIGQUIT, the temporary file is removed and an older file under the final name stays
-// unchanged. A symbolic link is kept: its target is written, even if that does not exist yet. Devices, pipes
-// and names of open descriptors (/dev/stdout) are written directly.
-//
-// An older file that cannot be replaced by renaming (a mount point, a file in an unwritable folder) is
-// overwritten on commit(), after its space was reserved. Signals wait for that. If the device fails or
-// SIGKILL arrives meanwhile, the file is left partly overwritten.
+// Writes to a file without a name in the folder of `path`, and names it on commit(). Where the file system or
+// /proc lacks what that needs, the unfinished file is ".edgewise.*.partial" in that folder. It is removed
+// without commit(), but not if the process is killed. An older file under the final name stays as it is
+// until commit() replaces it, and keeps its permissions. A symbolic link is kept: its target is written, even
+// if that does not exist yet. Devices, pipes and names of open descriptors (/dev/stdout) are written
+// directly.
 class AtomicFile {
  public:
-  // Throws std::runtime_error, naming the file and the reason, if the folder cannot be written.
+  // Throws FileError if the folder cannot be written.
   explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ostream& stream() { return stream_; }
-  // Throws std::runtime_error if anything could not be written (a full disk, say). A pipe that its reader has
-  // closed counts as written.
+  // Throws FileError if anything could not be written (a full disk, say), or if the older file cannot be
+  // replaced (a mount point, say). A pipe that its reader has closed counts as written.
   void commit();
 
  private:
-  bool open_directly(const std::filesystem::file_status& status);
-  bool make_temporary();
-  void overwrite();
+  struct Folder {
+    int descriptor = -1;  // none: the file is written directly
+    ~Folder();
+  };
+  // Calls make(name) for names in the folder until one is free. False if it fails; errno says why.
+  template <typename Make>
+  bool make_temporary(const Make& make);
+  std::string link() const;  // to the open file
 
-  std::filesystem::path path_, target_, temporary_;  // target_: path_ after its symbolic links
-  bool direct_ = false;
+  std::filesystem::path path_;
+  Folder folder_;                 // stays the same if the process changes its current folder
+  std::string name_, temporary_;  // in the folder; temporary_ is empty while there is none
   FileBuffer buffer_;
   std::ostream stream_{&buffer_};
-  int slot_ = -1;  // in the signal handler's table; -1: none
 };
 
 // The file that a path names after its symbolic links, which need not exist. Stops at names of descriptors.
 std::filesystem::path after_links(std::filesystem::path path);
-
-// Removes the temporary files of all AtomicFiles. A thread that begins another one afterwards blocks for
-// ever, so call this right before the process ends. Async-signal-safe, for programs with their own signal
-// handlers.
-void remove_unfinished_files();
 
 }  // namespace edgewise

@@ -2,19 +2,14 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <fstream>
-#include <future>
-#include <map>
-#include <mutex>
-#include <streambuf>
-#include <string_view>
+#include <locale>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "edgewise/limits.h"
 
@@ -24,56 +19,25 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::runtime_error system_error(const fs::path& path) {
-  return file_error(path, std::strerror(errno));
-}
-
 std::string content_of(int descriptor, const fs::path& path) {
   std::string content;
   for (std::array<char, 1 << 16> block;;) {
     const ssize_t count = read(descriptor, block.data(), block.size());
     if (count == 0) return content;
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw system_error(path);
+    if (count < 0) throw system_error(path, errno);
     content.append(block.data(), static_cast<std::size_t>(count));
     if (content.size() > kMaxObjBytes)
       throw file_error(path, "has more than " + std::to_string(kMaxObjBytes) + " bytes");
   }
 }
 
-// All that can be read from the descriptor. A failure is kept too: the rest of the input must not pass for
-// the whole.
-const std::string& kept(int descriptor, const fs::path& path) {
-  static std::mutex mutex;
-  static std::map<int, std::shared_future<std::string>> contents;
-  const std::lock_guard lock(mutex);
-  auto& content = contents[descriptor];
-  if (!content.valid())
-    content = std::async(std::launch::deferred, [&] { return content_of(descriptor, path); });
-  return content.get();
-}
-
-// Reads a string in place, which may have gigabytes.
-class StringStream : private std::streambuf, public std::istream {
- public:
-  explicit StringStream(const std::string& text) : std::istream(static_cast<std::streambuf*>(this)) {
-    char* const begin = const_cast<char*>(text.data());  // nothing writes there
-    setg(begin, begin, begin + text.size());
-  }
-
- private:
-  std::streampos seekoff(std::streamoff offset, std::ios::seekdir from, std::ios::openmode) override {
-    if (from != std::ios::beg) offset += (from == std::ios::cur ? gptr() : egptr()) - eback();
-    if (offset < 0 || offset > egptr() - eback()) return -1;
-    setg(eback(), eback() + offset, egptr());
-    return offset;
-  }
-  std::streampos seekpos(std::streampos position, std::ios::openmode mode) override {
-    return seekoff(position, std::ios::beg, mode);
-  }
-};
-
 }  // namespace
+
+FileError system_error(const fs::path& path, int error, std::string what) {
+  if (error != 0) what += (what.empty() ? "" : ": ") + std::generic_category().message(error);
+  return {path, what, error};
+}
 
 std::optional<int> descriptor_of(const fs::path& path) {
   std::error_code ignored;  // of an empty path
@@ -94,34 +58,39 @@ std::optional<int> descriptor_of(const fs::path& path) {
 InputFile open_input(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw file_error(path, error ? error.message() : "no such file");
-  if (fs::is_directory(status)) throw file_error(path, "is a directory");
+  if (!fs::exists(status)) throw system_error(path, error.value());
+  if (fs::is_directory(status)) throw FileError(path, "is a directory", EISDIR);
   if (!fs::is_regular_file(status)) {
     const auto descriptor = descriptor_of(path);
     if (!descriptor) throw file_error(path, "is not a regular file");
     if (!fs::is_fifo(status) && !fs::is_socket(status) && isatty(*descriptor) == 0)
       throw file_error(path, "is neither a regular file, a pipe nor a terminal");
-    const std::string& content = kept(*descriptor, path);
-    return {std::make_unique<StringStream>(content), content.size()};
+    std::string content = content_of(*descriptor, path);
+    const std::uint64_t size = content.size();
+    return {std::make_unique<std::istringstream>(std::move(content)), size};
   }
+  auto stream = std::make_unique<std::ifstream>();
+  stream->imbue(std::locale::classic());  // another one may convert bytes
   errno = 0;
-  InputFile opened{std::make_unique<std::ifstream>(path, std::ios::binary), 0};
-  if (!*opened.stream) throw file_error(path, errno != 0 ? std::strerror(errno) : "cannot be opened");
-  opened.size = fs::file_size(path, error);
-  if (error) throw file_error(path, error.message());
-  return opened;
+  stream->open(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream->is_open() ? std::streamoff{stream->tellg()} : -1;
+  if (size < 0) throw system_error(path, errno, errno != 0 ? "" : "cannot be opened");
+  stream->seekg(0);
+  return {std::move(stream), static_cast<std::uint64_t>(size)};
 }
 
-bool starts_with(const fs::path& path, std::string_view text) {
+bool starts_with(const InputFile& file, std::string_view text) {
   std::string start(text.size(), '\0');
-  return open_input(path).stream->read(start.data(), static_cast<std::streamsize>(start.size())) &&
-         start == text;
+  file.stream->read(start.data(), static_cast<std::streamsize>(start.size()));
+  file.stream->clear();
+  file.stream->seekg(0);
+  return start == text;
 }
 
-std::string extension_of(const std::filesystem::path& path) {
+std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (char& c : extension)  // std::tolower() asks the locale
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return extension;
 }
 

@@ -4,7 +4,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <type_traits>
+#include <variant>
 
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
@@ -23,15 +24,33 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// `delta(i)` is the difference at pixel i; `grey(i)` is the brightness of an equal pixel, at most
-// kBrightestGrey.
-template <typename Delta, typename Grey>
-Difference compare(int width, int height, const Delta& delta, const Grey& grey) {
+template <typename A, typename B>
+void require_same_size(const A& a, const B& b, const char* of = "") {
+  if (a.width != b.width || a.height != b.height)
+    throw std::invalid_argument("sizes differ: " + size_text(a.width, a.height) + " and " +
+                                size_text(b.width, b.height) + " pixels" + of);
+}
+
+// `delta(i)` is the difference at pixel i, and `alpha(i)` whether alpha differs there; `grey(i)` is the
+// brightness of an equal pixel, at most kBrightestGrey.
+template <typename Delta, typename Alpha, typename Grey>
+Difference compare(int width, int height, int scale, const Samples* mask, const Delta& delta,
+                   const Alpha& alpha, const Grey& grey) {
   Difference result;
+  result.scale = scale;
   const auto columns = static_cast<std::size_t>(width), pixels = columns * static_cast<std::size_t>(height);
+  const auto masked = [mask](std::size_t i) {
+    return mask != nullptr && (mask->pixels[i][0] | mask->pixels[i][1] | mask->pixels[i][2]) != 0;
+  };
   double largest_finite = 0.0;
   for (std::size_t i = 0; i < pixels; ++i) {
     const double d = delta(i);
+    if (masked(i)) {
+      ++result.masked;
+      result.masked_count += d != 0.0;
+      continue;
+    }
+    result.alpha_count += alpha(i);
     if (d == 0.0) continue;
     if (result.count++ == 0) {
       result.first_x = static_cast<int>(i % columns);
@@ -43,7 +62,7 @@ Difference compare(int width, int height, const Delta& delta, const Grey& grey) 
 
   result.picture = {width, height, std::vector<std::uint32_t>(pixels)};
   for (std::size_t i = 0; i < pixels; ++i) {
-    const double d = delta(i), share = std::isfinite(d) ? d / largest_finite : 1.0;
+    const double d = masked(i) ? 0.0 : delta(i), share = std::isfinite(d) ? d / largest_finite : 1.0;
     const std::uint32_t g = d == 0.0 ? grey(i) : 0;
     result.picture.pixels[i] =
         d == 0.0 ? rgb(g, g, g)
@@ -52,81 +71,105 @@ Difference compare(int width, int height, const Delta& delta, const Grey& grey) 
   return result;
 }
 
-template <typename A, typename B>
-void require_same_size(const A& a, const B& b) {
-  if (a.width != b.width || a.height != b.height)
-    throw std::invalid_argument("sizes differ: " + size_text(a.width, a.height) + " and " +
-                                size_text(b.width, b.height));
-}
-
-double channel_delta(std::uint32_t a, std::uint32_t b) {
-  int largest = 0;
-  for (int shift = 0; shift < 24; shift += 8)
-    largest =
-        std::max(largest, std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)));
-  return largest;
-}
-
-double depth_delta(float a, float b) {
+double float_delta(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0.0;
   const double delta = std::fabs(static_cast<double>(a) - b);
   return std::isnan(delta) ? std::numeric_limits<double>::infinity() : delta;
 }
 
-template <typename Picture, typename Pixels>
-MaskedDifference compare_outside(const Picture& a, Picture b, Pixels pixels, int scale, const Samples* mask) {
-  MaskedDifference result{difference(a, b), scale};
-  if (mask == nullptr) return result;
-  require_same_size(a, *mask);
-  const std::uint64_t all = result.outside.count;
-  for (std::size_t i = 0; i < mask->pixels.size(); ++i) {
-    if (mask->pixels[i] == Samples::Pixel{}) continue;
-    ++result.masked;
-    (b.*pixels)[i] = (a.*pixels)[i];
-  }
-  result.outside = difference(a, b);
-  result.ignored = all - result.outside.count;
-  return result;
+// Samples of `largest`.
+template <typename Channel>
+Difference compare_samples(int width, int height, int largest, const Samples* mask, const Channel& a,
+                           const Channel& b) {
+  return compare(
+      width, height, largest, mask,
+      [&](std::size_t i) {
+        int delta = 0;
+        for (int c = 0; c < 3; ++c) delta = std::max(delta, std::abs(a(i, c) - b(i, c)));
+        return delta;
+      },
+      [&](std::size_t i) { return a(i, 3) != b(i, 3); },
+      [&](std::size_t i) {
+        return static_cast<std::uint32_t>(a(i, 0) + a(i, 1) + a(i, 2)) * kBrightestGrey /
+               (3 * static_cast<std::uint32_t>(largest));
+      });
+}
+
+Difference compare(const Samples& a, const Samples& b, const Samples* mask) {
+  const int unit = a.deep || b.deep ? 1 : 257;
+  const auto channel_of = [unit](const Samples& of) {
+    return [&of, unit](std::size_t i, int c) { return of.pixels[i][static_cast<std::size_t>(c)] / unit; };
+  };
+  return compare_samples(a.width, a.height, 65535 / unit, mask, channel_of(a), channel_of(b));
+}
+
+// Of a pixel the channel that differs most counts. A single channel is a depth, of which the nearer is
+// brighter.
+Difference compare(int width, int height, int channels, const std::vector<float>& a,
+                   const std::vector<float>& b, const Samples* mask) {
+  const auto count = static_cast<std::size_t>(channels);
+  return compare(
+      width, height, 1, mask,
+      [&](std::size_t i) {
+        double largest = 0.0;
+        for (std::size_t c = i * count; c < (i + 1) * count; ++c)
+          largest = std::max(largest, float_delta(a[c], b[c]));
+        return largest;
+      },
+      [](std::size_t) { return false; },
+      [&](std::size_t i) {
+        float sum = 0.0f;
+        for (std::size_t c = i * count; c < (i + 1) * count; ++c)
+          if (a[c] >= 0.0f && a[c] <= 1.0f) sum += channels == 1 ? 1.0f - a[c] : a[c];
+        return static_cast<std::uint32_t>(sum * static_cast<float>(kBrightestGrey) /
+                                          static_cast<float>(channels));
+      });
 }
 
 }  // namespace
 
 Difference difference(const Image& a, const Image& b) {
   require_same_size(a, b);
-  return compare(
-      a.width, a.height, [&](std::size_t i) { return channel_delta(a.pixels[i], b.pixels[i]); },
-      [&](std::size_t i) {
-        const std::uint32_t p = a.pixels[i], sum = (p & 255) + (p >> 8 & 255) + (p >> 16 & 255);
-        return sum * kBrightestGrey / (3 * 255);
-      });
-}
-
-Difference difference(const Samples& a, const Samples& b) {
-  require_same_size(a, b);
-  const double unit = a.deep || b.deep ? 1.0 : 257.0;
-  return compare(
-      a.width, a.height,
-      [&](std::size_t i) {
-        int largest = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-          largest = std::max(largest, std::abs(a.pixels[i][c] - b.pixels[i][c]));
-        return largest / unit;
-      },
-      [&](std::size_t i) {
-        const auto& [r, g, blue] = a.pixels[i];
-        return (std::uint32_t{r} + g + blue) * kBrightestGrey / (3 * 65535);
-      });
+  const auto channel_of = [](const Image& of) {
+    return [&of](std::size_t i, int c) { return static_cast<int>(of.pixels[i] >> 8 * c & 255); };
+  };
+  return compare_samples(a.width, a.height, 255, nullptr, channel_of(a), channel_of(b));
 }
 
 Difference difference(const DepthMap& a, const DepthMap& b) {
   require_same_size(a, b);
-  return compare(
-      a.width, a.height, [&](std::size_t i) { return depth_delta(a.depth01[i], b.depth01[i]); },
-      [&](std::size_t i) {
-        const float depth = a.depth01[i];
-        const float nearness = depth >= 0.0f && depth <= 1.0f ? 1.0f - depth : 0.0f;
-        return static_cast<std::uint32_t>(nearness * static_cast<float>(kBrightestGrey));
-      });
+  return compare(a.width, a.height, 1, a.depth01, b.depth01, nullptr);
+}
+
+Difference difference(const Picture& a, const Picture& b, const Picture* mask) {
+  const auto* const masks = mask == nullptr ? nullptr : std::get_if<Samples>(mask);
+  if (mask != nullptr && masks == nullptr)
+    throw std::invalid_argument("a mask must be a picture, not floats");
+  return std::visit(
+      [&](const auto& first) {
+        using Kind = std::decay_t<decltype(first)>;
+        const auto* const second = std::get_if<Kind>(&b);
+        if (second == nullptr)
+          throw std::invalid_argument("a picture cannot be compared with a depth map or other floats");
+        require_same_size(first, *second);
+        if (masks != nullptr) require_same_size(first, *masks, " of the mask");
+        if constexpr (std::is_same_v<Kind, Samples>) {
+          return compare(first, *second, masks);
+        } else {
+          if (first.channels != second->channels)
+            throw std::invalid_argument("a depth map cannot be compared with three channels of floats");
+          return compare(first.width, first.height, first.channels, first.values, second->values, masks);
+        }
+      },
+      a);
+}
+
+Difference difference(const std::filesystem::path& a, const std::filesystem::path& b,
+                      const std::filesystem::path& mask, std::vector<std::string>* warnings) {
+  const Picture first = read_picture(a, warnings), second = read_picture(b, warnings);
+  if (mask.empty()) return difference(first, second, nullptr);
+  const Picture masks = read_picture(mask, warnings);
+  return difference(first, second, &masks);
 }
 
 Image enlarge(const Image& image, int factor) {
@@ -142,15 +185,6 @@ Image enlarge(const Image& image, int factor) {
           image.pixels[static_cast<std::size_t>(y / factor) * static_cast<std::size_t>(image.width) +
                        static_cast<std::size_t>(x / factor)]);
   return large;
-}
-
-MaskedDifference difference(const Samples& a, Samples b, const Samples* mask) {
-  const int scale = a.deep || b.deep ? 65535 : 255;
-  return compare_outside(a, std::move(b), &Samples::pixels, scale, mask);
-}
-
-MaskedDifference difference(const DepthMap& a, DepthMap b, const Samples* mask) {
-  return compare_outside(a, std::move(b), &DepthMap::depth01, 1, mask);
 }
 
 }  // namespace edgewise

@@ -3,6 +3,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <csetjmp>
@@ -11,6 +12,8 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "core/atomic_file.h"
 #include "core/input_file.h"
@@ -31,22 +34,22 @@ struct PngWriter : png_image {
   PngWriter& operator=(const PngWriter&) = delete;
 };
 
-void write_png(std::ostream& out, const fs::path& path, const Image& image) {
+void write_png(std::ostream& out, const fs::path& path, int width, int height, png_uint_32 format,
+               const void* samples) {
   PngWriter png;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  const std::vector<unsigned char> bytes = rgb_bytes(image);
+  png.width = static_cast<png_uint_32>(width);
+  png.height = static_cast<png_uint_32>(height);
+  png.format = format;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   const auto encoded = std::make_unique_for_overwrite<char[]>(size);
-  if (!png_image_write_to_memory(&png, encoded.get(), &size, 0, bytes.data(), 0, nullptr))
+  if (!png_image_write_to_memory(&png, encoded.get(), &size, 0, samples, 0, nullptr))
     throw file_error(path, png.message);
   out.write(encoded.get(), static_cast<std::streamsize>(size));
 }
 
 class PngReader {
  public:
-  explicit PngReader(const fs::path& path) : path_(path), file_(open_input(path)) {
+  PngReader(const fs::path& path, InputFile file) : path_(path), file_(std::move(file)) {
     if (png_ != nullptr && info_ != nullptr) return;
     png_destroy_read_struct(&png_, &info_, nullptr);
     throw std::bad_alloc();
@@ -55,7 +58,7 @@ class PngReader {
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  Samples read() {
+  Samples read(std::vector<std::string>* warnings) {
     run([&] {
       png_set_read_fn(png_, this, read_bytes);
       png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // checked_size() reports large ones
@@ -63,20 +66,32 @@ class PngReader {
     });
     const netpbm::Size size =
         netpbm::checked_size(path_, png_get_image_width(png_, info_), png_get_image_height(png_, info_));
-    Samples image{size.width, size.height, png_get_bit_depth(png_, info_) == 16, {}};
+    Samples image{size.width,
+                  size.height,
+                  png_get_bit_depth(png_, info_) == 16,
+                  (png_get_color_type(png_, info_) & PNG_COLOR_MASK_COLOR) == 0,
+                  {}};
     image.pixels.resize(size.pixels());
     run([&] {
       png_set_expand_16(png_);
       png_set_gray_to_rgb(png_);
-      png_set_strip_alpha(png_);
+      png_set_add_alpha(png_, 65535, PNG_FILLER_AFTER);
       if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);  // a PNG is big-endian
       const int passes = png_set_interlace_handling(png_);
       png_read_update_info(png_, info_);
       for (int pass = 0; pass < passes; ++pass)
         for (std::size_t i = 0; i < size.pixels(); i += static_cast<std::size_t>(size.width))
           png_read_row(png_, reinterpret_cast<png_bytep>(&image.pixels[i]), nullptr);
-      png_read_end(png_, nullptr);
     });
+    try {
+      run([&] { png_read_end(png_, nullptr); });
+    } catch (const FileError&) {
+      // Only if the checksum of the pixels was there.
+      const bool in_pixels = (png_get_io_state(png_) & PNG_IO_CHUNK_HDR) == 0 &&
+                             png_get_io_chunk_type(png_) == ('I' << 24 | 'D' << 16 | 'A' << 8 | 'T');
+      if (!cut_ || in_pixels) throw;
+      if (warnings != nullptr) warnings->push_back(path_.string() + ": is cut behind its pixels");
+    }
     return image;
   }
 
@@ -94,21 +109,20 @@ class PngReader {
   }
   static void ignore(png_structp, png_const_charp) {}
   static void read_bytes(png_structp png, png_bytep bytes, std::size_t count) {
-    auto& stream = *static_cast<PngReader*>(png_get_io_ptr(png))->file_.stream;
-    if (!stream.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count)))
-      png_error(png, "truncated");
+    auto& reader = *static_cast<PngReader*>(png_get_io_ptr(png));
+    if (reader.file_.stream->read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count)))
+      return;
+    reader.cut_ = true;
+    png_error(png, "truncated");
   }
 
   const fs::path& path_;
   InputFile file_;
+  bool cut_ = false;
   std::array<char, 128> message_{};
   png_structp png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore);
   png_infop info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
 };
-
-std::runtime_error unknown_format(const fs::path& path) {
-  return file_error(path, "is neither a .png nor a .ppm");
-}
 
 }  // namespace
 
@@ -120,21 +134,13 @@ std::optional<Format> format_of(const fs::path& path) {
   return {};
 }
 
-std::optional<Format> format_of_input(const fs::path& path) {
-  if (!descriptor_of(path)) return format_of(path);
-  if (starts_with(path, "\x89PNG")) return Format::png;
-  if (starts_with(path, "P6")) return Format::ppm;
-  if (starts_with(path, "Pf")) return Format::pfm;
-  return {};
-}
-
 bool is_image_path(const fs::path& path) {
   const auto format = format_of(path);
   return format && *format != Format::pfm;
 }
 
 void write_image(const fs::path& path, const Image& image) {
-  if (!is_image_path(path)) throw unknown_format(path);
+  if (!is_image_path(path)) throw file_error(path, "is neither a .png nor a .ppm");
   write_image(path, image, *format_of(path));
 }
 
@@ -142,9 +148,17 @@ void write_image(const fs::path& path, const Image& image, Format format) {
   netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
   AtomicFile file(path);
   if (format == Format::png)
-    write_png(file.stream(), path, image);
+    write_png(file.stream(), path, image.width, image.height, PNG_FORMAT_RGB, rgb_bytes(image).data());
   else
     write_ppm(file.stream(), image);
+  file.commit();
+}
+
+void write_grey16(const fs::path& path, const Grey16& image) {
+  if (format_of(path) != Format::png) throw file_error(path, "is no .png, as 16-bit grey must be");
+  netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
+  AtomicFile file(path);
+  write_png(file.stream(), path, image.width, image.height, PNG_FORMAT_LINEAR_Y, image.pixels.data());
   file.commit();
 }
 
@@ -156,24 +170,59 @@ void write_pfm(const fs::path& path, const DepthMap& map) {
 }
 
 DepthMap read_pfm(const fs::path& path) {
-  return read_pfm(path, open_input(path));
+  FloatMap map = read_pfm(path, open_input(path));
+  if (map.channels != 1) throw file_error(path, "has three channels; a depth map has one");
+  return {map.width, map.height, std::move(map.values)};
 }
 
-Samples read_samples(const fs::path& path) {
-  const auto format = format_of_input(path);
-  if (format == Format::png) return PngReader(path).read();
-  if (format == Format::ppm) return read_ppm(path, open_input(path));
-  throw unknown_format(path);
+Picture read_picture(const fs::path& path, std::vector<std::string>* warnings) {
+  InputFile file = open_input(path);
+  if (starts_with(file, "\x89PNG")) return PngReader(path, std::move(file)).read(warnings);
+  for (const char* magic : {"P2", "P3", "P5", "P6"})
+    if (starts_with(file, magic)) return read_ppm(path, std::move(file));
+  for (const char* magic : {"Pf", "PF"})
+    if (starts_with(file, magic)) return read_pfm(path, std::move(file));
+  throw file_error(path, "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM");
 }
 
-Image read_image(const fs::path& path) {
-  const Samples samples = read_samples(path);
-  const auto reduced = [](std::uint16_t sample) { return (sample * 255u + 32767u) / 65535u; };
-  Image image{samples.width, samples.height, {}};
-  image.pixels.reserve(samples.pixels.size());
-  for (const auto& [r, g, b] : samples.pixels)
-    image.pixels.push_back(rgb(reduced(r), reduced(g), reduced(b)));
+Image to_image(const fs::path& path, const Picture& picture) {
+  if (const auto* const samples = std::get_if<Samples>(&picture)) {
+    const auto reduced = [](std::uint16_t sample) { return (sample * 255u + 32767u) / 65535u; };
+    Image image{samples->width, samples->height, {}};
+    image.pixels.reserve(samples->pixels.size());
+    for (const auto& [r, g, b, alpha] : samples->pixels)
+      image.pixels.push_back(rgb(reduced(r), reduced(g), reduced(b)));
+    return image;
+  }
+  const auto& map = std::get<FloatMap>(picture);
+  if (map.channels != 3) throw file_error(path, "is a depth map, which read_pfm() reads");
+  const auto reduced = [](float value) {  // NaN becomes 0
+    return value > 0.0f ? static_cast<std::uint32_t>(std::min(value, 1.0f) * 255.0f + 0.5f) : 0u;
+  };
+  Image image{map.width, map.height, {}};
+  image.pixels.reserve(map.values.size() / 3);
+  for (std::size_t i = 0; i < map.values.size(); i += 3)
+    image.pixels.push_back(
+        rgb(reduced(map.values[i]), reduced(map.values[i + 1]), reduced(map.values[i + 2])));
   return image;
+}
+
+Image read_image(const fs::path& path, std::vector<std::string>* warnings) {
+  return to_image(path, read_picture(path, warnings));
+}
+
+Grey16 to_grey16(const Samples& grey) {
+  Grey16 image{grey.width, grey.height, {}};
+  image.pixels.reserve(grey.pixels.size());
+  for (const Samples::Pixel& pixel : grey.pixels) image.pixels.push_back(pixel[0]);
+  return image;
+}
+
+Grey16 read_grey16(const fs::path& path, std::vector<std::string>* warnings) {
+  const Picture picture = read_picture(path, warnings);
+  const auto* const samples = std::get_if<Samples>(&picture);
+  if (samples == nullptr || !samples->grey) throw file_error(path, "is no picture of grey");
+  return to_grey16(*samples);
 }
 
 }  // namespace edgewise

@@ -1,6 +1,7 @@
 #include "image/netpbm.h"
 
 #include <charconv>
+#include <cstdio>
 #include <utility>
 
 #include "edgewise/contract.h"
@@ -36,12 +37,16 @@ void check_pixels(const std::filesystem::path& path, int width, int height, std:
                                std::to_string(height));
 }
 
-Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_view magic)
+Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_view kinds)
     : path_(path), file_(std::move(file)) {
-  std::string start(magic.size(), '\0');
-  file_.stream->read(start.data(), static_cast<std::streamsize>(start.size()));
-  if (start == magic) end_ = next();
-  if (!is_blank(end_)) throw file_error(path_, "does not start with " + std::string(magic));
+  const bool is_p = file_.stream->get() == 'P';
+  if (const int kind = file_.stream->get();
+      is_p && kind > 0 && kinds.find(static_cast<char>(kind)) != kinds.npos)
+    kind_ = static_cast<char>(kind), end_ = next();
+  if (is_blank(end_)) return;
+  std::string wanted;
+  for (const char kind : kinds) wanted += (wanted.empty() ? "P" : " or P") + std::string(1, kind);
+  throw file_error(path_, "does not start with " + wanted);
 }
 
 // The next character. A comment counts as the line end behind it, even if it begins inside a word.
@@ -52,31 +57,48 @@ int Reader::next() {
   return c;
 }
 
-std::string Reader::word() {
-  std::string word;
+void Reader::skip_blanks() {
   do {
     const int before = end_;
     end_ = next();
     if (before == '\r' && end_ == '\n') crlf_ = true;
   } while (is_blank(end_));
+}
+
+std::string Reader::word() {
+  std::string word;
+  skip_blanks();
   for (; word.size() < kMaxWord && end_ > ' ' && end_ <= '~'; end_ = next())
     word.push_back(static_cast<char>(end_));
-  if (word.empty() || !is_blank(end_)) throw file_error(path_, "malformed or truncated header");
+  if (word.empty() || !(is_blank(end_) || (end_ == EOF && is_plain())))
+    throw file_error(path_, "malformed or truncated " + std::string(is_plain() ? "text" : "header"));
   return word;
 }
 
-std::uint64_t Reader::integer() {
+std::uint64_t Reader::integer(const char* noun) {
   const std::string text = word();
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    throw file_error(path_, "malformed header: '" + text + "' is not a size");
+    throw file_error(path_, "malformed: '" + text + "' is not a " + noun);
   return value;
 }
 
 Size Reader::size() {
   const std::uint64_t width = integer(), height = integer();
   return checked_size(path_, width, height);
+}
+
+void Reader::begin_plain(std::uint64_t samples) {
+  const std::uint64_t rest = end_ == EOF ? 0 : file_.size - static_cast<std::uint64_t>(file_.stream->tellg());
+  if (rest + 1 < 2 * samples)  // each has a digit, and a blank before the next one
+    throw file_error(path_, "truncated: header promises " + std::to_string(samples) + " samples, " +
+                                std::to_string(rest) + " bytes follow");
+}
+
+void Reader::end_plain() {
+  skip_blanks();
+  if (end_ != EOF) throw file_error(path_, "too long: text follows the last sample");
 }
 
 void Reader::check_rest(std::uint64_t bytes) {

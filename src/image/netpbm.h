@@ -1,5 +1,5 @@
-// Reads files of the Netpbm kind (PPM and PFM): a header of words, then samples. Sizes are checked before
-// memory is allocated for them.
+// Reads files of the Netpbm kind (PGM, PPM and PFM): a header of words, then samples. Sizes are checked
+// before memory is allocated for them.
 #pragma once
 
 #include <cstddef>
@@ -28,11 +28,18 @@ void check_pixels(const std::filesystem::path& path, int width, int height, std:
 // long.
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, InputFile file, std::string_view magic);
+  // The file must start with P and one of these.
+  Reader(const std::filesystem::path& path, InputFile file, std::string_view kinds);
 
+  char kind() const { return kind_; }
   std::string word();
-  std::uint64_t integer();
+  std::uint64_t integer(const char* noun = "size");
   Size size();
+
+  // Of the plain kinds, samples are integers, which follow begin_plain() and must be the rest of the file.
+  bool is_plain() const { return kind_ == '2' || kind_ == '3'; }
+  void begin_plain(std::uint64_t samples);
+  void end_plain();
 
   // Reads `count` samples, which must be the rest of the file. They begin one blank or CR LF after the last
   // word.
@@ -46,11 +53,13 @@ class Reader {
 
  private:
   int next();
+  void skip_blanks();
   void check_rest(std::uint64_t bytes);
   void read(void* samples, std::size_t bytes);
 
   const std::filesystem::path& path_;
   InputFile file_;
+  char kind_ = 0;
   int end_ = 0;        // the character behind the last word
   bool crlf_ = false;  // an earlier line ended in CR LF
 };

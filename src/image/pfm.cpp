@@ -1,5 +1,6 @@
-// PFM, as defined by Debevec's HDRShop: "Pf", width, height, a scale, then rows of floats, the bottom row
-// first. A negative scale means little endian. The scale's size is a unit of light and is ignored.
+// PFM, as defined by Debevec's HDRShop: "Pf" or, with three channels, "PF", width, height, a scale, then rows
+// of floats, the bottom row first. A negative scale means little endian. The scale's size is a unit of light
+// and is ignored.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -37,24 +38,27 @@ DepthMap to_depth_map(const ConstFrameView& frame) {
 }
 
 void write_pfm(std::ostream& out, const DepthMap& map) {
-  out << "Pf\n" << map.width << ' ' << map.height << "\n-1.0\n";
+  // A stream would format the size by the host's locale.
+  out << "Pf\n" << std::to_string(map.width) << ' ' << std::to_string(map.height) << "\n-1.0\n";
   const auto row = static_cast<std::size_t>(map.width);
   for (int y = map.height - 1; y >= 0; --y)
     write_words(out, std::as_bytes(std::span(map.depth01).subspan(static_cast<std::size_t>(y) * row, row)));
 }
 
-DepthMap read_pfm(const std::filesystem::path& path, InputFile file) {
-  netpbm::Reader reader(path, std::move(file), "Pf");
+FloatMap read_pfm(const std::filesystem::path& path, InputFile file) {
+  netpbm::Reader reader(path, std::move(file), "fF");
   const netpbm::Size size = reader.size();
   const double scale = read_scale(path, reader);
 
-  DepthMap map{size.width, size.height, reader.samples<float>(size.pixels())};
-  convert_words(std::as_writable_bytes(std::span(map.depth01)),
+  const std::size_t channels = reader.kind() == 'f' ? 1 : 3;
+  FloatMap map{size.width, size.height, static_cast<int>(channels),
+               reader.samples<float>(size.pixels() * channels)};
+  convert_words(std::as_writable_bytes(std::span(map.values)),
                 scale > 0.0 ? std::endian::big : std::endian::little);
-  for (int top = 0, bottom = map.height - 1; top < bottom; ++top, --bottom) {
-    const auto row = [&](int y) { return map.depth01.begin() + std::ptrdiff_t{y} * map.width; };
-    std::swap_ranges(row(top), row(top + 1), row(bottom));
-  }
+  const auto row = static_cast<std::ptrdiff_t>(channels) * map.width;
+  for (int top = 0, bottom = map.height - 1; top < bottom; ++top, --bottom)
+    std::swap_ranges(map.values.begin() + top * row, map.values.begin() + (top + 1) * row,
+                     map.values.begin() + bottom * row);
   return map;
 }
 

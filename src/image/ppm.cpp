@@ -12,12 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A sample of `bits` bits, of which the largest value is `maximum`, as 16 bits.
-std::uint16_t scaled(const fs::path& path, std::uint32_t sample, std::uint32_t maximum, int bits) {
+// A sample as 16 bits. Samples of up to 8 bits keep their ratio to 255.
+std::uint16_t scaled(const fs::path& path, std::uint64_t sample, std::uint32_t maximum) {
   if (sample > maximum)
     throw file_error(path, "has a sample of " + std::to_string(sample) + ", more than its maximum of " +
                                std::to_string(maximum));
-  const std::uint32_t full = bits == 8 ? 255 : 65535;
+  const std::uint32_t full = maximum > 255 ? 65535 : 255;
   return static_cast<std::uint16_t>((sample * full + maximum / 2) / maximum * (65535 / full));
 }
 
@@ -47,26 +47,38 @@ std::vector<unsigned char> rgb_bytes(const Image& image) {
 
 void write_ppm(std::ostream& out, const Image& image) {
   const std::vector<unsigned char> bytes = rgb_bytes(image);
-  out << "P6\n" << image.width << ' ' << image.height << "\n255\n";
+  // A stream would format the size by the host's locale.
+  out << "P6\n" << std::to_string(image.width) << ' ' << std::to_string(image.height) << "\n255\n";
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
 Samples read_ppm(const fs::path& path, InputFile file) {
-  netpbm::Reader reader(path, std::move(file), "P6");
+  netpbm::Reader reader(path, std::move(file), "2356");
   const netpbm::Size size = reader.size();
-  const std::uint64_t largest = reader.integer();
+  const std::uint64_t largest = reader.integer("maximum");
   if (largest < 1 || largest > 65535) throw file_error(path, "the maximum must be 1 to 65535");
   const auto maximum = static_cast<std::uint32_t>(largest);
-  Samples image{size.width, size.height, maximum > 255, {}};
-  const std::size_t width = image.deep ? 2 : 1;
-  const auto bytes = reader.samples<unsigned char>(size.pixels() * 3 * width);
-  image.pixels.reserve(size.pixels());
-  const auto channel = [&](std::size_t i) {
-    return image.deep ? scaled(path, bytes[2 * i] * 256u + bytes[2 * i + 1], maximum, 16)
-                      : scaled(path, bytes[i], maximum, 8);
+  const bool plain = reader.is_plain(), grey = reader.kind() == '2' || reader.kind() == '5';
+  Samples image{size.width, size.height, maximum > 255, grey, {}};
+  const std::size_t channels = grey ? 1 : 3, width = image.deep ? 2 : 1;
+  std::vector<unsigned char> bytes;
+  if (plain)
+    reader.begin_plain(size.pixels() * channels);
+  else
+    bytes = reader.samples<unsigned char>(size.pixels() * channels * width);
+  const auto sample = [&](std::size_t i) {
+    return scaled(path,
+                  plain        ? reader.integer("sample")
+                  : image.deep ? bytes[2 * i] * 256u + bytes[2 * i + 1]
+                               : bytes[i],
+                  maximum);
   };
-  for (std::size_t i = 0; i < 3 * size.pixels(); i += 3)
-    image.pixels.push_back({channel(i), channel(i + 1), channel(i + 2)});
+  image.pixels.reserve(size.pixels());
+  for (std::size_t i = 0; i < channels * size.pixels(); i += channels) {
+    const std::uint16_t r = sample(i), g = grey ? r : sample(i + 1), b = grey ? r : sample(i + 2);
+    image.pixels.push_back({r, g, b, 65535});
+  }
+  if (plain) reader.end_plain();
   return image;
 }
 

@@ -20,6 +20,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/input_file.h"
 #include "core/nearest_name.h"
 #include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
@@ -51,11 +52,18 @@ inline py::str text_of(const std::string& bytes) {
       PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<Py_ssize_t>(bytes.size())));
 }
 
-// Calls f() for a file. What is wrong with the file becomes an OSError.
+// Calls f() for a file. What is wrong with the file becomes an OSError: FileNotFoundError, PermissionError
+// and so on where the system says why.
 template <typename F>
 auto with_file(F&& f) {
   try {
     return f();
+  } catch (const FileError& error) {
+    const py::object os_error = py::reinterpret_borrow<py::object>(PyExc_OSError);
+    const py::object made = error.code != 0
+                                ? os_error(error.code, text_of(error.reason), text_of(error.path.string()))
+                                : os_error(text_of(error.what()));
+    PyErr_SetObject(py::type::of(made).ptr(), made.ptr());
   } catch (const std::runtime_error& error) {
     PyErr_SetObject(PyExc_OSError, text_of(error.what()).ptr());
   }

@@ -12,74 +12,114 @@ namespace edgewise::python {
 
 namespace {
 
-Samples samples_of(const std::variant<Path, Words>& from) {
-  if (const auto* const path = std::get_if<Path>(&from))
-    return with_file_only([&] { return read_samples(*path); });
-  const Words& colours = std::get<Words>(from);
+using Shorts = Array<std::uint16_t>;
+using From = std::variant<Path, Words, Shorts, Floats>;  // Words: colours, Shorts: 16-bit grey
+
+// What the reader of a file warns of.
+using Notes = std::vector<std::string>;
+py::list texts_of(const Notes& notes) {
+  py::list texts;
+  for (const std::string& note : notes) texts.append(text_of(note));
+  return texts;
+}
+
+Samples samples_of(const Words& colours) {
   check(colours, "a picture", {-1, -1});
-  Samples samples{side(colours.shape(1)), side(colours.shape(0)), false, {}};
+  Samples samples{side(colours.shape(1)), side(colours.shape(0)), false, false, {}};
   const auto pixels = copied<std::uint32_t>(colours);
   const Released released;
   samples.pixels.reserve(pixels.size());
   for (const std::uint32_t c : pixels) {
     const auto sample = [&](int shift) { return static_cast<std::uint16_t>((c >> shift & 255) * 257); };
-    samples.pixels.push_back({sample(0), sample(8), sample(16)});
+    samples.pixels.push_back({sample(0), sample(8), sample(16), sample(24)});
   }
   return samples;
 }
 
-DepthMap map_of(const Floats& depth) {
-  check(depth, "a depth map", {-1, -1});
-  return {side(depth.shape(1)), side(depth.shape(0)), copied<float>(depth)};
-}
-DepthMap map_of(const std::variant<Path, Floats>& from) {
-  const auto* const path = std::get_if<Path>(&from);
-  return path == nullptr ? map_of(std::get<Floats>(from)) : with_file_only([&] { return read_pfm(*path); });
+Samples samples_of(const Shorts& grey) {
+  check(grey, "a picture of 16-bit grey", {-1, -1});
+  Samples samples{side(grey.shape(1)), side(grey.shape(0)), true, true, {}};
+  for (const std::uint16_t g : copied<std::uint16_t>(grey)) samples.pixels.push_back({g, g, g, 65535});
+  return samples;
 }
 
-template <typename T>
-py::tuple diff(const T& a, const T& b, const std::optional<std::variant<Path, Words>>& mask_from) {
-  std::optional<Samples> mask;
-  if (mask_from) mask = samples_of(*mask_from);
-  const MaskedDifference found = [&] {
+// (height, width), or (height, width, 3).
+FloatMap map_of(const Floats& values) {
+  const bool colour = values.ndim() == 3;
+  if (colour)
+    check(values, "a map of floats", {-1, -1, 3});
+  else
+    check(values, "a depth map", {-1, -1});
+  return {side(values.shape(1)), side(values.shape(0)), colour ? 3 : 1, copied<float>(values)};
+}
+
+Picture picture_of(const From& from, Notes& notes) {
+  if (const auto* const path = std::get_if<Path>(&from))
+    return with_file_only([&] { return read_picture(*path, &notes); });
+  if (const auto* const colours = std::get_if<Words>(&from)) return samples_of(*colours);
+  if (const auto* const grey = std::get_if<Shorts>(&from)) return samples_of(*grey);
+  return map_of(std::get<Floats>(from));
+}
+
+py::tuple diff(const From& a_from, const From& b_from, const std::optional<From>& mask_from) {
+  Notes notes;
+  const Picture a = picture_of(a_from, notes), b = picture_of(b_from, notes);
+  std::optional<Picture> mask;
+  if (mask_from) mask = picture_of(*mask_from, notes);
+  const Difference d = [&] {
     const Released released;
     return difference(a, b, mask ? &*mask : nullptr);
   }();
-  const Difference& d = found.outside;
   const py::object first =
       d.count == 0 ? py::object(py::none()) : py::object(py::make_tuple(d.first_x, d.first_y));
-  return py::make_tuple(d.count, d.largest, found.scale, first, found.masked, found.ignored,
-                        as_array(d.picture.pixels, d.picture.width, d.picture.height));
+  return py::make_tuple(d.count, d.largest, d.scale, first, d.masked, d.masked_count, d.alpha_count,
+                        as_array(d.picture.pixels, d.picture.width, d.picture.height), texts_of(notes));
+}
+
+// 16-bit grey stays what it is.
+py::tuple read_colours(const Path& path) {
+  Notes notes;
+  const auto image = with_file_only([&]() -> std::variant<Image, Grey16> {
+    const Picture picture = read_picture(path, &notes);
+    const auto* const samples = std::get_if<Samples>(&picture);
+    if (samples == nullptr || !samples->deep || !samples->grey) return to_image(path, picture);
+    return to_grey16(*samples);
+  });
+  return std::visit(
+      [&](const auto& read) {
+        return py::make_tuple(as_array(read.pixels, read.width, read.height), texts_of(notes));
+      },
+      image);
+}
+
+template <typename Of, typename Pixel>
+void write_pixels(void (*write)(const Path&, const Of&), const Path& path, const Array<Pixel>& pixels,
+                  const char* name) {
+  check(pixels, name, {-1, -1});
+  const Of image{side(pixels.shape(1)), side(pixels.shape(0)), copied<Pixel>(pixels)};
+  with_file_only([&] { write(path, image); });
 }
 
 }  // namespace
 
 void define_images(py::module_& m) {
-  m.def("read_image", [](const Path& path) {
-    const Image image = with_file_only([&] { return read_image(path); });
-    return as_array(image.pixels, image.width, image.height);
+  m.def("read_image", read_colours);
+  m.def("write_colours", [](const Path& path, const Words& colours) {
+    write_pixels<Image>(write_image, path, colours, "colours");
   });
-  m.def("write_image", [](const Path& path, const Words& colours) {
-    check(colours, "colours", {-1, -1});
-    const Image image{side(colours.shape(1)), side(colours.shape(0)), copied<std::uint32_t>(colours)};
-    with_file_only([&] { write_image(path, image); });
+  m.def("write_grey16", [](const Path& path, const Shorts& grey) {
+    write_pixels<Grey16>(write_grey16, path, grey, "16-bit grey");
   });
   m.def("read_pfm", [](const Path& path) {
-    const DepthMap map = with_file_only([&] { return read_pfm(path); });
-    return as_array(map.depth01, map.width, map.height);
+    const FloatMap map = with_file_only([&] { return read_pfm(path, open_input(path)); });
+    std::vector<py::ssize_t> shape{map.height, map.width};
+    if (map.channels != 1) shape.push_back(map.channels);
+    return Floats(shape, map.values.data());
   });
   m.def("write_pfm", [](const Path& path, const Floats& depth) {
-    const DepthMap map = map_of(depth);
-    with_file_only([&] { write_pfm(path, map); });
+    write_pixels<DepthMap>(write_pfm, path, depth, "a depth map");
   });
-  using Picture = std::variant<Path, Words>;
-  using Depths = std::variant<Path, Floats>;
-  m.def("diff_pictures", [](const Picture& a, const Picture& b, const std::optional<Picture>& mask) {
-    return diff(samples_of(a), samples_of(b), mask);
-  });
-  m.def("diff_depths", [](const Depths& a, const Depths& b, const std::optional<Picture>& mask) {
-    return diff(map_of(a), map_of(b), mask);
-  });
+  m.def("diff", diff);
 }
 
 }  // namespace edgewise::python

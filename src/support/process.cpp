@@ -12,7 +12,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "core/atomic_file.h"
 #include "support/console.h"
 #include "support/progress.h"
 
@@ -25,7 +24,6 @@ static_assert(decltype(before_stopping)::is_always_lock_free);
 
 extern "C" void stop(int signal) {
   if (void (*const action)() = before_stopping) action();
-  remove_unfinished_files();
   erase_progress_on_signal();
   _exit(128 + signal);
 }
@@ -37,7 +35,6 @@ const char* program_name = "";
   static std::atomic_flag begun;
   while (begun.test_and_set()) pause();
   if (void (*const action)() = before_stopping) action();
-  remove_unfinished_files();
   erase_progress_on_signal();
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);

@@ -1,11 +1,16 @@
 #include "support/source.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
+#include <ostream>
 #include <stdexcept>
 #include <system_error>
 
+#include "core/atomic_file.h"
 #include "core/input_file.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
@@ -22,6 +27,18 @@ Source load_built_in(const std::string& name, const SceneRequest& request, bool 
   return source;
 }
 
+// A pipe can be read only once, but commands load a scene several times: puts what the descriptor gives into
+// a file in memory, under the same number.
+void keep_content(const std::string& path) {
+  if (std::filesystem::is_regular_file(path)) return;
+  FileBuffer kept;
+  const InputFile input = open_input(path);
+  kept.attach(memfd_create("edgewise", MFD_CLOEXEC));
+  if (input.size > 0) std::ostream(&kept) << input.stream->rdbuf() << std::flush;
+  if (kept.descriptor() < 0 || kept.error() != 0 || dup2(kept.descriptor(), *descriptor_of(path)) < 0)
+    throw system_error(path, errno);
+}
+
 }  // namespace
 
 std::string input_path(const std::string& text) {
@@ -35,7 +52,9 @@ bool is_file_path(const std::string& name_or_path) {
 
 bool is_stream_file(const std::string& path) {
   const std::string file = input_path(path);
-  return descriptor_of(file) ? starts_with(file, "TRI1") : extension_of(file) == ".tri";
+  if (!descriptor_of(file)) return extension_of(file) == ".tri";
+  keep_content(file);
+  return starts_with(open_input(file), "TRI1");
 }
 
 std::string source_name(const std::string& name_or_path) {

@@ -392,6 +392,23 @@ TEST_F(ProgramRenders, FilesWhoseSamplesAreEqualOrDiffer) {
             "1 of 2 pixels differ, by up to 1 of 65535; the first at x 1, y 0\n");
   EXPECT_EQ(script_in(folder_, "edgewise diff --json a.ppm c.ppm").out,
             "{\"differing\":1,\"first\":[1,0],\"largest\":1.0,\"pixels\":2,\"scale\":65535}\n");
+  folder_.write("d.ppm", "P3 2 1 255 1 2 3 255 0 128");
+  EXPECT_EQ(script_in(folder_, "edgewise diff a.ppm d.ppm").out, "equal: 2 pixels\n");
+  folder_.write("zero.pfm", "Pf 1 1 -1\n\0\0\0\0"s);
+  folder_.write("nan.pfm", "Pf 1 1 -1\n\0\0\300\177"s);
+  EXPECT_EQ(script_in(folder_, "edgewise diff --json zero.pfm nan.pfm").out,
+            "{\"differing\":1,\"first\":[0,0],\"infinite\":true,\"largest\":null,\"pixels\":1}\n");
+  // Without IEND, and with an alpha of 7.
+  folder_.write(
+      "rgba.png",
+      "\211PNG\015\012\032\012\000\000\000\015IHDR\000\000\000\001\000\000\000\001\010\006\000\000\000\037\025\304\211\000\000\000\015IDATx\234c`dbf\007\000\000\034\000\016G\242\223\335"s);
+  folder_.write("rgb.ppm", "P6 1 1 255 \1\2\3");
+  const Outcome alpha = script_in(folder_, "edgewise diff rgba.png rgb.ppm");
+  EXPECT_EQ(alpha.out, "equal: 1 pixels; alpha differs in 1 pixels\n");
+  EXPECT_EQ(alpha.err, "warning: rgba.png: is cut behind its pixels\n");
+  EXPECT_EQ(script_in(folder_, "edgewise diff --json rgba.png rgb.ppm").out,
+            "{\"differing\":0,\"differing_in_alpha\":1,\"first\":null,\"largest\":0.0,\"pixels\":1,\"scale\":"
+            "255}\n");
   // A mask of 16 bits counts by its samples, which 8 bits would round to black.
   folder_.write("mask.ppm", "P6 2 1 65535\n\0\0\0\0\0\0\0\0\0\0\0\1"s);
   EXPECT_EQ(script_in(folder_, "edgewise diff a.ppm c.ppm --mask mask.ppm").status, 0);

@@ -47,6 +47,7 @@ CASES = {
     "instance of NaN": ("finite", lambda: scene().set_instance(0, IDENTITY * np.nan)),
     "grey of uint8": ("uint8", lambda: edgewise.Scene(POSITIONS, INDICES, colours=np.zeros(len(INDICES), np.uint8))),
     "colour of 33 bits": ("outside 0", lambda: edgewise.Scene(POSITIONS, INDICES, colours=COLOURS.astype(np.int64) + (1 << 32))),
+    "colours of uint16": ("uint16", lambda: edgewise.Scene(POSITIONS, INDICES, colours=COLOURS.astype(np.uint16))),
     "missing instance": ("instance 3 of 3", lambda: scene().set_instance(3, IDENTITY)),
     "removed, though missing": ("instance 3 of 3", lambda: scene().remove_instance(3)),
     "positions of a missing mesh": ("mesh 2 of 2", lambda: scene().set_positions(2, POSITIONS)),

@@ -1,6 +1,7 @@
 """Files, and what the program says of the same input. EDGEWISE_PROGRAM is the program."""
 import json
 import os
+import re
 import subprocess
 
 import numpy as np
@@ -105,12 +106,99 @@ READERS = {"obj": edgewise.Scene.read_obj, "tri": edgewise.Stream.read_tri, "png
 
 @pytest.mark.parametrize("extension", READERS)
 def test_a_file_that_cannot_be_read_is_an_os_error(tmp_path, extension):
-    path = tmp_path / f"file.{extension}"
-    with pytest.raises(FileNotFoundError, match=f"file.{extension}"):
-        READERS[extension](path)
+    path, read = tmp_path / f"file.{extension}", READERS[extension]
+    with pytest.raises(FileNotFoundError, match=f"file.{extension}") as missing:
+        read(path)
+    assert missing.value.filename == str(path)
+    with pytest.raises(IsADirectoryError):
+        read(tmp_path)
+    os.mkfifo(path)
+    with pytest.raises(OSError, match="not a regular file"):  # without opening it, which would wait for a writer
+        read(path)
+    path.unlink()
     path.write_bytes(b"?")
     with pytest.raises(OSError, match=f"file.{extension}"):
-        READERS[extension](path)
+        read(path)
+
+
+# The same number stands for another pipe each time.
+def test_a_pipe_is_read_when_its_descriptor_is_named():
+    for z in (1, 2):
+        pipe, end = os.pipe()
+        os.write(end, OBJ.encode() + f"v 0 0 {z}\nf 1 2 6\n".encode())
+        os.close(end)
+        assert edgewise.Scene.read_obj(f"/dev/fd/{pipe}").bounds()[1][2] == z
+        os.close(pipe)
+
+
+def handlers():
+    return [line for line in open("/proc/self/status", encoding="ascii") if line.startswith("Sig")]
+
+
+def test_writing_leaves_the_process_as_it_is(tmp_path):
+    before, files = handlers(), os.listdir("/proc/self/fd")
+    edgewise.write_image(tmp_path / "a.png", np.zeros((2, 2), np.uint32))
+    edgewise.write_pfm(tmp_path / "a.pfm", np.zeros((2, 2)))
+    stream().write_tri(tmp_path / "a.tri")
+    with pytest.raises(OSError):
+        edgewise.write_pfm(tmp_path, np.zeros((2, 2)))
+    assert handlers() == before and os.listdir("/proc/self/fd") == files
+
+
+def test_16_bit_grey_comes_back(tmp_path):
+    grey = np.arange(65536, dtype=np.uint16).reshape(256, 256)
+    path = tmp_path / "grey.png"
+    edgewise.write_image(path, grey)
+    back = edgewise.read_image(path)
+    assert back.dtype == np.uint16 and np.array_equal(back, grey)
+    difference = edgewise.diff(path, grey + np.uint16(1))
+    assert (difference.differing, difference.largest, difference.scale) == (65536, 65535, 65535)  # 65535 + 1 is 0
+    assert edgewise.diff(np.full((1, 1), 255, np.uint16), np.full((1, 1), 256, np.uint16)).largest == 1
+    with pytest.raises(OSError, match="png"):
+        edgewise.write_image(tmp_path / "grey.ppm", grey)
+
+
+@pytest.mark.parametrize("dtype", "?bBhilqLQefdFOSUm")
+def test_other_types_are_no_pictures(tmp_path, dtype):
+    array = np.zeros((2, 5), dtype)
+    with pytest.raises(ValueError, match=re.escape(f"not {array.dtype} of shape (2, 5)")):
+        edgewise.write_image(tmp_path / "a.png", array)
+    said = "cannot be compared" if array.dtype.kind == "f" else re.escape(f"not {array.dtype} of shape (2, 5)")
+    with pytest.raises(ValueError, match=said):
+        edgewise.diff(np.zeros((2, 5), np.uint32), array)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_floats_of_three_channels(tmp_path):
+    path, other = tmp_path / "a.pfm", tmp_path / "b.pfm"
+    values = np.arange(12, dtype=np.float32).reshape(2, 2, 3) / 8
+    path.write_bytes(b"PF\n2 2\n-1.0\n" + values[::-1].astype("<f4").tobytes())
+    assert np.array_equal(edgewise.read_pfm(path), values)
+    assert edgewise.read_image(path)[0, 0] == 0xFF402000 and edgewise.read_image(path)[1, 1] == 0xFFFFFFFF
+    other.write_bytes(path.read_bytes()[:-4] + b"\0\0\xc0\x7f")  # NaN
+    assert edgewise.diff(path, values).differing == 0 and edgewise.diff(path, other).largest == np.inf
+    assert json.loads(program("diff", path, other, "--json", status=1))["infinite"] is True
+
+
+def test_alpha_is_compared_apart(tmp_path):
+    a = np.zeros((2, 2, 4), np.uint8)
+    b = a.copy()
+    b[0, 1, 3] = 7
+    assert edgewise.diff(a, b).differing == 0 and edgewise.diff(a, b).differing_in_alpha == 1
+    assert edgewise.diff(a, b, [[0, 1], [0, 0]]).differing_in_alpha == 0
+    path = tmp_path / "a.png"
+    edgewise.write_image(path, a)  # without alpha
+    assert edgewise.diff(path, a).differing_in_alpha == 4
+
+
+def test_a_png_that_is_cut_behind_its_pixels_is_a_warning(tmp_path):
+    path = tmp_path / "a.png"
+    edgewise.write_image(path, np.zeros((2, 2), np.uint32))
+    path.write_bytes(path.read_bytes()[:-12])
+    with pytest.warns(UserWarning, match="cut behind its pixels") as warned:
+        edgewise.read_image(path)
+        edgewise.diff(path, path)
+    assert [w.filename for w in warned] == [__file__] * 3
 
 
 def test_a_file_that_cannot_be_written_is_an_os_error(tmp_path):
@@ -119,8 +207,10 @@ def test_a_file_that_cannot_be_written_is_an_os_error(tmp_path):
                   lambda: edgewise.write_pfm(tmp_path / "no/a.pfm", depth), lambda: stream().write_tri(tmp_path / "no/a.tri")):
         with pytest.raises(OSError, match=str(tmp_path)):
             write()
-    with pytest.raises(ValueError):
-        edgewise.write_image(tmp_path / "a.png", depth)
+    with pytest.raises(FileNotFoundError):
+        edgewise.write_image(tmp_path / "no/a.png", colours)
+    with pytest.raises(ValueError, match="uint32"):
+        edgewise.write_pfm(tmp_path / "a.pfm", colours)
     with pytest.raises(ValueError, match="size"):
         edgewise.Stream(np.zeros((1, 3, 3)), (0, 5)).write_tri(tmp_path / "a.tri")
     assert list(tmp_path.iterdir()) == []

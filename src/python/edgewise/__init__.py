@@ -24,8 +24,7 @@ from __future__ import annotations
 
 import copy
 import math
-import warnings
-from os import PathLike, fspath
+from os import PathLike
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Sequence, TypeVar, Union
 
 import numpy as np
@@ -41,6 +40,14 @@ from .frames import Queries as _Queries
 from .frames import depth01 as depth01
 from .frames import id_colours as id_colours
 from .frames import metric_depth as metric_depth
+from .pictures import Difference as Difference
+from .pictures import colours as _colours
+from .pictures import diff as diff
+from .pictures import read_image as read_image
+from .pictures import read_pfm as read_pfm
+from .pictures import warn as _warn
+from .pictures import write_image as write_image
+from .pictures import write_pfm as write_pfm
 
 if TYPE_CHECKING:
     from . import lab
@@ -71,15 +78,6 @@ class Instance(NamedTuple):
     matrix: NDArray[np.float64]  # shape (4, 4), from the mesh to the world
 
 
-class Difference(NamedTuple):
-    """How two pictures or depth maps differ outside a mask."""
-    differing: int  # pixels
-    largest: float  # difference of a channel or of a depth
-    scale: int  # what `largest` is out of: 255, or 65535 if a file has 16 bits; 1 for depths
-    first: tuple[int, int] | None  # x, y of the first pixel that differs, row by row
-    masked: int  # pixels of the mask
-    differing_in_mask: int
-    picture: NDArray[np.uint32]  # grey where equal, red where not
 
 
 def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 1.0, 0.0)) -> NDArray[np.float64]:
@@ -151,47 +149,6 @@ def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int6
     """
     views = _native.visible_triangles(*_check.frame(frame))
     return np.concatenate([*views, np.empty(0, np.uint32)]), np.cumsum([0, *map(len, views)])
-
-
-def read_image(path: _Path) -> NDArray[np.uint32]:
-    """A PNG or PPM file as colours 0xFFBBGGRR, shape (height, width). Alpha is ignored, 16-bit samples are rounded to 8."""
-    return _native.read_image(_readable(path))
-
-
-def write_image(path: _Path, colours: ArrayLike) -> None:
-    """Writes colours as an 8-bit PNG or PPM, by the extension.
-
-    colours: shape (height, width), uint32, 0xAABBGGRR; or (height, width, 3 or 4), uint8: R, G, B. Alpha is ignored.
-    """
-    _native.write_image(_check.path(path, "path"), _colours(colours))
-
-
-def read_pfm(path: _Path) -> NDArray[np.float32]:
-    """The depth map of a PFM file, shape (height, width)."""
-    return _native.read_pfm(_readable(path))
-
-
-def write_pfm(path: _Path, depth: ArrayLike) -> None:
-    """Writes a depth map, such as depth01() of a frame's depth, shape (height, width), as float32."""
-    _native.write_pfm(_check.path(path, "path"), _check.array(depth, "depth", np.float32))
-
-
-def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | None = None) -> Difference:
-    """Compares two pictures or two depth maps, as `edgewise diff` does.
-
-    a, b: files (.png, .ppm; .pfm), or arrays: colours as write_image() takes them, or depths of any float type, which are
-    compared as float32. Planes of frames are neither: compare id_colours(ids) and depth01(depth). mask: a file, or an array of
-    shape (height, width), or a picture. Pixels count as equal where it is not black or 0, so Portable.reasons is one.
-    """
-    depths = [fspath(x).lower().endswith(".pfm") if _is_path(x) else _check.as_array(x).dtype.kind == "f" for x in (a, b)]
-    if depths[0] != depths[1]:
-        raise ValueError("a picture cannot be compared with a depth map")
-    if mask is not None and not _is_path(mask):
-        mask = _mask(mask)
-    if depths[0]:
-        return Difference(*_native.diff_depths(*(_readable(x) if _is_path(x) else _check.array(x, name, np.float32)
-                                                for x, name in ((a, "a"), (b, "b"))), mask))
-    return Difference(*_native.diff_pictures(*(_readable(x) if _is_path(x) else _colours(x) for x in (a, b)), mask))
 
 
 class _Drawable:
@@ -267,9 +224,8 @@ class Scene(_Queries, _Drawable):
         Warns of what the reader skips, such as missing materials.
         """
         scene = cls.__new__(cls)
-        scene._native, notes = _native.read_obj(_readable(path))
-        for note in notes:
-            warnings.warn(note, stacklevel=2)
+        scene._native, notes = _native.read_obj(_check.path(path, "path"))
+        _warn(notes)
         return scene
 
     def add_mesh(self, positions: ArrayLike, triangles: ArrayLike, *, colours: ArrayLike | None = None,
@@ -282,7 +238,7 @@ class Scene(_Queries, _Drawable):
         """
         return self._native.add_mesh(
             _check.array(positions, "positions", np.float32), _check.array(triangles, "triangles", np.uint32),
-            None if colours is None else _colours(colours), *_check.flags(two_sided=two_sided))
+            None if colours is None else _colours(colours, of_mesh=True), *_check.flags(two_sided=two_sided))
 
     def add_instance(self, mesh: int, matrix: ArrayLike = IDENTITY) -> int:
         """Places a mesh in the world by an affine matrix, shape (4, 4), and returns the instance's number."""
@@ -416,13 +372,13 @@ class Stream(_Drawable):
         """vertices: shape (n, 3, 3), float32: per triangle and vertex, x and y in pixels, y down, and z in 0 ... 1, where
         smaller z is nearer. size: width, height in pixels of the image they are made for. colours: as Scene.add_mesh()."""
         self._native = _native.stream(_check.array(vertices, "vertices", np.float32), *_check.size(size),
-                                      None if colours is None else _colours(colours))
+                                      None if colours is None else _colours(colours, of_mesh=True))
 
     @classmethod
     def read_tri(cls, path: _Path) -> Stream:
         """Reads a .tri file, such as `edgewise capture` writes."""
         stream = cls.__new__(cls)
-        stream._native = _native.read_tri(_readable(path))
+        stream._native = _native.read_tri(_check.path(path, "path"))
         return stream
 
     def write_tri(self, path: _Path) -> None:
@@ -485,31 +441,3 @@ def _laboratory() -> Any:
     return lab
 
 
-def _colours(colours: ArrayLike) -> NDArray[np.uint32]:
-    array = _check.as_array(colours)
-    if array.dtype == np.uint8 and array.ndim and array.shape[-1] in (3, 4):
-        r, g, b = (array[..., i].astype(np.uint32) for i in range(3))
-        return r | g << np.uint32(8) | b << np.uint32(16) | np.uint32(BLACK)
-    if array.size and (array.dtype.kind not in "iu" or array.dtype == np.uint8):
-        raise ValueError("colours must be integers 0xAABBGGRR, or R, G, B of type uint8")
-    if array.size and array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
-        raise ValueError("a colour is outside 0 to 0xFFFFFFFF")
-    return _check.array(array, "colours", np.uint32)
-
-
-def _mask(mask: ArrayLike) -> NDArray[np.uint32]:
-    """A picture that is black where pixels count."""
-    array = np.asarray(mask)
-    if array.dtype == np.uint32 or array.dtype == np.uint8 and array.ndim == 3:
-        return _colours(array)
-    return np.where(array != 0, np.uint32(0xFFFFFFFF), np.uint32(BLACK))
-
-
-def _is_path(value: Any) -> bool:
-    return isinstance(value, (str, PathLike))
-
-
-def _readable(path: _Path) -> _Path:
-    """Raises FileNotFoundError, PermissionError, ... as Python does."""
-    with open(_check.path(path, "path"), "rb"):
-        return path

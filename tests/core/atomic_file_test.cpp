@@ -1,0 +1,226 @@
+// Files that are written completely or not at all, and files that are read.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <iterator>
+#include <memory>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "core/input_file.h"
+#include "message_of.h"
+#include "temp_dir.h"
+
+namespace edgewise {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(AtomicFile, AppearsOnCommitOnly) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a";
+  AtomicFile file(path);
+  file.stream() << "new";
+  EXPECT_FALSE(fs::exists(path));
+  file.commit();
+  EXPECT_EQ(file_content(path), "new");
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+TEST(AtomicFile, WithoutCommitOnlyTheOldFileRemains) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "old");
+  {
+    AtomicFile file(path);
+    file.stream() << "new";
+    EXPECT_EQ(file_content(path), "old");
+  }
+  EXPECT_EQ(file_content(path), "old");
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+TEST(AtomicFile, ReplacesALinksTargetAndKeepsItsMode) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "old"), link = dir.path() / "link";
+  fs::permissions(path, fs::perms(0600));
+  fs::create_symlink("a", link);
+  AtomicFile file(link);
+  file.stream() << "new";
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(file_content(path), "new");
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms(0600));
+}
+
+TEST(AtomicFile, MakesTheTargetOfADanglingLink) {
+  const TempDir dir;
+  fs::create_directory(dir.path() / "folder");
+  fs::create_symlink("folder/second", dir.path() / "first");
+  fs::create_symlink("../target", dir.path() / "folder" / "second");
+  {
+    AtomicFile file(dir.path() / "first");
+    file.stream() << "new";
+  }
+  EXPECT_FALSE(fs::exists(dir.path() / "target"));
+  AtomicFile file(dir.path() / "first");
+  file.stream() << "new";
+  file.commit();
+  EXPECT_EQ(file_content(dir.path() / "target"), "new");
+  EXPECT_EQ(fs::read_symlink(dir.path() / "first"), "folder/second");
+  EXPECT_EQ(fs::read_symlink(dir.path() / "folder" / "second"), "../target");
+  EXPECT_EQ(dir.count(), 3u);
+}
+
+TEST(AtomicFile, RefusesALinkIntoAMissingFolderAndALoop) {
+  const TempDir dir;
+  const fs::path link = dir.path() / "link", loop = dir.path() / "loop";
+  fs::create_symlink("none/target", link);
+  fs::create_symlink("loop", loop);
+  EXPECT_EQ(message_of([&] { AtomicFile{link}; }),
+            link.string() + ": cannot be written: there is no folder " + (dir.path() / "none").string());
+  EXPECT_EQ(message_of([&] { AtomicFile{loop}; }),
+            loop.string() + ": cannot be written: Too many levels of symbolic links");
+}
+
+// Also through a link; the file keeps its place, and what follows is appended.
+TEST(AtomicFile, WritesToOpenDescriptorsWhereTheyStand) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "older "), link = dir.path() / "link";
+  const int descriptor = open(path.c_str(), O_WRONLY | O_APPEND);
+  const std::string name = "/dev/fd/" + std::to_string(descriptor);
+  fs::create_symlink(name, link);
+  for (const fs::path& output : {fs::path(name), link}) {
+    AtomicFile file(output);
+    file.stream() << "new ";
+    file.commit();
+  }
+  close(descriptor);
+  EXPECT_EQ(file_content(path), "older new new ");
+  EXPECT_TRUE(fs::is_symlink(link));
+}
+
+TEST(AtomicFile, LosesNothingLargerThanItsBuffer) {
+  const TempDir dir;
+  std::string text;
+  for (int i = 0; i < 30000; ++i) text += std::to_string(i);
+  AtomicFile file(dir.path() / "a");
+  file.stream() << text.substr(0, 5);
+  file.stream().write(text.data() + 5, static_cast<std::streamsize>(text.size() - 10));
+  for (const char c : text.substr(text.size() - 5)) file.stream().put(c);
+  file.commit();
+  EXPECT_EQ(file_content(dir.path() / "a"), text);
+}
+
+TEST(AtomicFile, TwoOfOneNameAreIndependent) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a";
+  AtomicFile first(path), second(path);
+  first.stream() << "first";
+  second.stream() << "second";
+  first.commit();
+  EXPECT_EQ(file_content(path), "first");
+  second.commit();
+  EXPECT_EQ(file_content(path), "second");
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+TEST(AtomicFile, ANameOfAnyAllowedLengthWorks) {
+  const TempDir dir;
+  AtomicFile file(dir.path() / std::string(255, 'x'));
+  file.commit();
+  EXPECT_TRUE(fs::exists(dir.path() / std::string(255, 'x')));
+}
+
+TEST(AtomicFile, ImpossibleTargetsAreRefusedAtOnce) {
+  const TempDir dir;
+  const fs::path file = dir.write("a", "");
+  EXPECT_EQ(message_of([&] { AtomicFile{dir.path()}; }), dir.path().string() + ": is a directory");
+  for (const fs::path& path : {dir.path() / "none" / "a", file / "b", dir.path() / std::string(256, 'x')})
+    EXPECT_NE(message_of([&] { AtomicFile{path}; }).find(path.string() + ": cannot be written: "),
+              std::string::npos)
+        << path;
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+// The unfinished file has no name where the file system allows that, and another process cannot remove it.
+TEST(AtomicFile, LeavesNothingInTheFolderBeforeCommit) {
+  const TempDir dir;
+  const int tmpfile = open(dir.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
+  if (tmpfile < 0) GTEST_SKIP() << "no unnamed files here";
+  close(tmpfile);
+  AtomicFile file(dir.path() / "a");
+  file.stream() << "new" << std::flush;
+  EXPECT_EQ(dir.count(), 0u);
+}
+
+TEST(AtomicFile, NewOnesHaveTheProcesssMode) {
+  const TempDir dir;
+  const mode_t before = umask(027);
+  AtomicFile file(dir.path() / "a");
+  umask(before);
+  file.commit();
+  EXPECT_EQ(fs::status(dir.path() / "a").permissions(), fs::perms(0640));
+}
+
+TEST(AtomicFile, HundredsMayBeOpenAtOnce) {
+  const TempDir dir;
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  for (int i = 0; i < 200; ++i) {
+    files.push_back(std::make_unique<AtomicFile>(dir.path() / std::to_string(i)));
+    files.back()->stream() << i;
+  }
+  for (const auto& file : files) file->commit();
+  EXPECT_EQ(dir.count(), 200u);
+  EXPECT_EQ(file_content(dir.path() / "199"), "199");
+}
+
+TEST(AtomicFile, StaysInItsFolderIfTheProcessChangesTheCurrentOne) {
+  const TempDir dir, other;
+  const fs::path before = fs::current_path();
+  fs::current_path(dir.path());
+  AtomicFile file("a");
+  fs::current_path(other.path());
+  file.commit();
+  fs::current_path(before);
+  EXPECT_TRUE(fs::exists(dir.path() / "a"));
+  EXPECT_EQ(other.count(), 0u);
+}
+
+TEST(AtomicFile, WhatCannotBeReplacedStaysAsItIs) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a";
+  AtomicFile file(path);
+  file.stream() << "new";
+  fs::create_directory(path);  // as a mount point, which needs privileges: no file can be renamed over it
+  EXPECT_EQ(message_of([&] { file.commit(); }), path.string() + ": cannot be replaced: Is a directory");
+  EXPECT_TRUE(fs::is_directory(path));
+}
+
+// Opening one would wait for a writer, and closing it would break one.
+TEST(InputFile, NamedPipesAreRefusedWithoutOpeningThem) {
+  const TempDir dir;
+  const fs::path pipe = dir.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(message_of([&] { open_input(pipe); }), pipe.string() + ": is not a regular file");
+}
+
+// The same number may stand for another pipe later.
+TEST(InputFile, DescriptorsAreReadWhenTheyAreNamed) {
+  for (const std::string content : {"first", "second"}) {
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const int number = dup2(ends[0], 99);
+    ASSERT_EQ(write(ends[1], content.data(), content.size()), static_cast<ssize_t>(content.size()));
+    close(ends[0]), close(ends[1]);
+    const InputFile file = open_input("/dev/fd/99");
+    EXPECT_TRUE(starts_with(file, content.substr(0, 2)));
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(*file.stream), {}), content);
+    EXPECT_EQ(file.size, content.size());
+    close(number);
+  }
+}
+
+}  // namespace
+}  // namespace edgewise
