@@ -21,10 +21,13 @@
 #include "edgewise/simd_target.h"
 
 namespace edgewise {
+class TriangleSource;  // internal
+}
+
+namespace [[gnu::visibility("default")]] edgewise {
 
 class Frontend;
 struct FrontendOptions;
-class TriangleSource;  // internal
 
 // How to draw. No choice here changes a bit of the picture.
 struct Execution {

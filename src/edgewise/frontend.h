@@ -17,6 +17,10 @@
 #include "edgewise/simd_target.h"
 
 namespace edgewise {
+class TriangleSource;  // internal
+}
+
+namespace [[gnu::visibility("default")]] edgewise {
 
 // Which triangles to drop for their facing.
 enum class Cull { none, back, front, both };
@@ -94,7 +98,6 @@ class Backend;
 struct Execution;
 struct FrameView;
 struct RenderPass;
-class TriangleSource;  // internal
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 9 bytes per instance,
@@ -145,7 +148,7 @@ class Frontend {
   TriangleSource* start_source(const Drawable& drawable, const FrontendOptions& options, int workers);
   void end_source();
 
-  struct State;
+  struct [[gnu::visibility("hidden")]] State;
   std::unique_ptr<State> state_;
 };
 

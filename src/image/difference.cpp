@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/float_state.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
@@ -92,6 +93,7 @@ MaskedDifference compare_outside(const Picture& a, Picture b, Pixels pixels, int
 }  // namespace
 
 Difference difference(const Image& a, const Image& b) {
+  const DefaultFloatState state;
   require_same_size(a, b);
   return compare(
       a.width, a.height, [&](std::size_t i) { return channel_delta(a.pixels[i], b.pixels[i]); },
@@ -119,6 +121,7 @@ Difference difference(const Samples& a, const Samples& b) {
 }
 
 Difference difference(const DepthMap& a, const DepthMap& b) {
+  const DefaultFloatState state;
   require_same_size(a, b);
   return compare(
       a.width, a.height, [&](std::size_t i) { return depth_delta(a.depth01[i], b.depth01[i]); },

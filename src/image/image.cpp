@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/atomic_file.h"
+#include "core/float_state.h"
 #include "core/input_file.h"
 #include "edgewise/scene.h"
 #include "image/format.h"
@@ -139,6 +140,7 @@ void write_image(const fs::path& path, const Image& image) {
 }
 
 void write_image(const fs::path& path, const Image& image, Format format) {
+  const DefaultFloatState state;  // for libpng
   netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
   AtomicFile file(path);
   if (format == Format::png)
@@ -160,6 +162,7 @@ DepthMap read_pfm(const fs::path& path) {
 }
 
 Samples read_samples(const fs::path& path) {
+  const DefaultFloatState state;
   const auto format = format_of_input(path);
   if (format == Format::png) return PngReader(path).read();
   if (format == Format::ppm) return read_ppm(path, open_input(path));
