@@ -23,10 +23,16 @@ namespace edgewise::detail {
 
 namespace {
 
-// False in a child that was forked after its parent came here: the child has none of oneTBB's workers, but
-// perhaps locks that they held. So nothing here may lock before this.
+// The process that uses oneTBB. A child that it forks has none of oneTBB's workers, but perhaps locks that
+// they held, so nothing may lock before this is read.
+constinit std::atomic<pid_t> user{0};
+// Threads may draw until the process has ended, but oneTBB's static objects are destroyed soon after this
+// one.
+struct Exit {
+  ~Exit() { user = -1; }
+} const at_exit;
+
 bool may_use_tbb() {
-  static constinit std::atomic<pid_t> user{0};
   const pid_t self = getpid();
   pid_t first = 0;
   return user.compare_exchange_strong(first, self) || first == self;

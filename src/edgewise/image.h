@@ -13,7 +13,7 @@
 
 #include "edgewise/framebuffer.h"
 
-namespace [[gnu::visibility("default")]] edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // An 8-bit RGB picture. Pixels are 0xAABBGGRR; alpha is ignored.
 struct Image {

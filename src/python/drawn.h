@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdint>
@@ -19,6 +20,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/float_state.h"
 #include "core/nearest_name.h"
 #include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
@@ -76,8 +78,10 @@ class Drawn {
   // Calls f(drawable) without the GIL, so f touches nothing of Python's.
   template <typename F>
   auto use(F&& f) {
+    if (drawer_->process != getpid()) drawer_.reset(new Drawer);
     const py::gil_scoped_release released;
-    const std::lock_guard lock(busy_);
+    const std::lock_guard lock(drawer_->busy);
+    const DefaultFloatState state;  // for the laboratory
     return f(drawable_);
   }
   template <typename F>
@@ -112,9 +116,9 @@ class Drawn {
     RenderPass pass{.background = background, .clear = clear};
     if (scissor) pass.scissor = {(*scissor)[0], (*scissor)[1], (*scissor)[2], (*scissor)[3]};
     for_each_view(cameras, frames.views, [&](const Drawable& drawable, std::size_t i) {
-      auto& made = backends_[backend];
+      auto& made = drawer_->backends[backend];
       if (made == nullptr) made = find_backend(backend).make();
-      edgewise::draw(drawable, frontend_, options, *made, frames[i], pass, {.threads = threads});
+      edgewise::draw(drawable, drawer_->frontend, options, *made, frames[i], pass, {.threads = threads});
     });
   }
 
@@ -135,10 +139,22 @@ class Drawn {
   }
 
  private:
+  // A forked child makes a new one: a thread of its parent may have been drawing with the old one, which
+  // stays.
+  struct Drawer {
+    pid_t process = getpid();
+    std::mutex busy;
+    Frontend frontend;
+    std::map<std::string, std::unique_ptr<Backend>> backends;
+  };
+  struct Delete {
+    void operator()(Drawer* drawer) const {
+      if (drawer->process == getpid()) delete drawer;
+    }
+  };
+
   Drawable drawable_;
-  Frontend frontend_;
-  std::map<std::string, std::unique_ptr<Backend>> backends_;
-  std::mutex busy_;
+  std::unique_ptr<Drawer, Delete> drawer_{new Drawer};
 };
 
 // Pictures, depth maps and their differences.

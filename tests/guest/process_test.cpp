@@ -33,7 +33,7 @@ namespace {
 constexpr int kWidth = 320, kHeight = 240;
 
 const Drawable& knot() {
-  static const Drawable made = find_scene("torus-knot").make(SceneRequest{});
+  static const auto& made = *new Drawable(find_scene("torus-knot").make(SceneRequest{}));
   return made;
 }
 
@@ -131,16 +131,18 @@ TEST(ProcessFork, AChildDrawsWhileAThreadOfItsParentDraws) {
   other.join();
 }
 
-TEST(ProcessExit, ThreadsMayDrawMeanwhile) {
+TEST(ProcessExit, ThreadsAndExitHandlersMayDrawMeanwhile) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  for (int i = 0; i < 10; ++i)
+  for (int i = 0; i < 5; ++i)
     EXPECT_EXIT(
         {
-          for (int thread = 0; thread < 3; ++thread)
-            std::thread([] {
-              for (Guest guest;;) guest.draw(2);
+          std::atexit([] { Guest().draw(5); });
+          for (int threads = 2; threads < 5; ++threads)
+            std::thread([=] {
+              for (Guest guest;;) guest.draw(threads);
             }).detach();
-          std::this_thread::sleep_for(std::chrono::milliseconds(50 + i));
+          Guest().draw(5);
+          std::this_thread::sleep_for(std::chrono::milliseconds(i));
           std::exit(7);
         },
         ::testing::ExitedWithCode(7), "^$");
