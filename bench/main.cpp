@@ -432,6 +432,7 @@ int guarded(int argc, char** argv) {
 }  // namespace edgewise::bench
 
 int main(int argc, char** argv) {
+  edgewise::allow_more_threads_than_cores();
   edgewise::tools::prepare_process(edgewise::bench::kProgram);
   const int status = edgewise::bench::guarded(argc, argv);
   if (edgewise::tools::stdout_is_whole() || status == 2) return status;

@@ -60,6 +60,12 @@ facts_are_those_of_x86_64() {
     echo "$(wc -c <"$found.facts") bytes of facts and files are those of x86-64"
 }
 
+# guest_tests [COMMAND…]: those of a program that uses the library; COMMAND… starts it. QEMU 7.2 cannot fork while threads run.
+guest_tests() {
+  build edgewise_guest_tests
+  noted "$@" "$build/edgewise_guest_tests" --gtest_brief=1 ${1:+--gtest_filter=-ProcessFork.*:ProcessExit.*}
+}
+
 # A processor without FMA, for which the C library has other functions.
 without_fma() {
   GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 "$@"
@@ -72,6 +78,7 @@ on_x86_64() {
   if grep 'cannot be preloaded' "$found.log"; then return 1; fi
   noted without_fma "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted "$build/edgewise_library_tests" --gtest_brief=1
+  guest_tests
   facts >"$platforms/x86_64.facts"
   for compiler in g++ clang++-14; do
     for kind in Release Debug; do
@@ -79,6 +86,7 @@ on_x86_64() {
       local -a build_flags=(-DEDGEWISE_LABORATORY=OFF -DEDGEWISE_FILES=OFF "-DCMAKE_CXX_COMPILER=$compiler" -DEDGEWISE_WERROR=ON)
       build edgewise_hashes
       noted "$build/edgewise_hashes" "$root/tests/hashes.json" --frames 2000
+      guest_tests
     done
   done
 }
@@ -94,6 +102,7 @@ library_on() {
   local -a run=("qemu-$1" -L "/usr/$1-linux-gnu")
   build edgewise_hashes
   compare_hashes "${@:2}" || return
+  guest_tests "${run[@]}"
   if [[ $1 == riscv64 ]]; then # elsewhere, program_on tests it, too
     build edgewise_contract_tests
     noted "${run[@]}" "$build/edgewise_contract_tests" --gtest_brief=1
@@ -108,6 +117,7 @@ program_on() {
   unpack_sysroot "$sysroot" "$2"
   build edgewise_program edgewise_hashes edgewise_library_tests
   compare_hashes --frames 1000
+  guest_tests "${run[@]}"
   noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1
   noted facts_are_those_of_x86_64 "${run[@]}"
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/float_state.h"
 #include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
 #include "edgewise/camera.h"
@@ -47,6 +48,7 @@ edgewise_status failed(edgewise_status status, const char* text) noexcept {
 // Calls f(), and turns what it throws into a status.
 template <typename F>
 edgewise_status status_of(F&& f) noexcept {
+  const DefaultFloatState state;
   try {
     f();
     return EDGEWISE_OK;
@@ -358,6 +360,7 @@ edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewis
 static_assert(EDGEWISE_DEPTH_CLEAR == contract::kDepthClear);
 
 double edgewise_depth01(uint32_t depth) {
+  const DefaultFloatState state;
   return contract::depth01(depth);
 }
 

@@ -1,6 +1,7 @@
 // A scene or stream drawn in one call: the only file that knows both front end and backends.
 #include <variant>
 
+#include "core/float_state.h"
 #include "core/triangle_source.h"
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
@@ -10,6 +11,7 @@ namespace edgewise {
 
 void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
           FrameView frame, const RenderPass& pass, const Execution& execution) {
+  const DefaultFloatState state;
   throw_if_of_another_size("a drawable with options", options.width, options.height, frame);
   const Execution resolved = checked(frame, execution);
   const FramePart part = checked(frame, pass);

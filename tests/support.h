@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/parallel.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
@@ -20,6 +21,9 @@
 namespace edgewise::testing {
 
 inline constexpr std::uint32_t kBackground = 0xABCD1234;
+
+// Tests draw on more threads than there are cores, all at the same time.
+inline const bool kManyThreads = (allow_more_threads_than_cores(), true);
 
 // Whether tests run at full size (scripts/test --full).
 inline bool full_size() {

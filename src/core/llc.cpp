@@ -1,6 +1,7 @@
 #include "core/llc.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 
 namespace edgewise {
@@ -27,11 +28,18 @@ std::size_t largest_cache_bytes(const char* folder) {
 std::size_t llc_bytes() {
   constexpr std::size_t kUnknown = std::size_t{8} << 20;
 #if defined(__linux__)
-  static const std::size_t bytes = largest_cache_bytes("/sys/devices/system/cpu/cpu0/cache");
-  constexpr std::size_t kLeast = std::size_t{1} << 20;  // less is no last level: Linux does not know that one
-  if (bytes >= kLeast) return bytes;
-#endif
+  // Not a static that is made once: a child that was forked meanwhile would wait for it for ever.
+  static constinit std::atomic<std::size_t> known{0};
+  if (known == 0) {
+    constexpr std::size_t kLeast = std::size_t{1}
+                                   << 20;  // less is no last level: Linux does not know that one
+    const std::size_t bytes = largest_cache_bytes("/sys/devices/system/cpu/cpu0/cache");
+    known = bytes >= kLeast ? bytes : kUnknown;
+  }
+  return known;
+#else
   return kUnknown;
+#endif
 }
 
 }  // namespace edgewise

@@ -3,14 +3,17 @@
 #ifdef EDGEWISE_THREADS
 
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <map>
-#include <memory>
 #include <mutex>
+
+#include "core/float_state.h"
 
 #ifdef EDGEWISE_TELL_TSAN
 #include <sanitizer/tsan_interface.h>
@@ -20,17 +23,30 @@ namespace edgewise::detail {
 
 namespace {
 
+// The process that uses oneTBB. A child that it forks has none of oneTBB's workers, but perhaps locks that
+// they held, so nothing may lock before this is read.
+constinit std::atomic<pid_t> user{0};
+// Threads may draw until the process has ended, but oneTBB's static objects are destroyed soon after this
+// one.
+struct Exit {
+  ~Exit() { user = -1; }
+} const at_exit;
+
+bool may_use_tbb() {
+  const pid_t self = getpid();
+  pid_t first = 0;
+  return user.compare_exchange_strong(first, self) || first == self;
+}
+
 // One arena per thread count, made on first use and kept: making one takes longer than drawing a small scene.
+// They are never destroyed, since threads may draw until the process has ended. oneTBB warns on standard
+// error of an arena that exceeds its limit.
 tbb::task_arena& arena_for(int threads) {
   static std::mutex mutex;
-  static std::map<int, tbb::task_arena> arenas;
-  static std::unique_ptr<tbb::global_control> more_threads_than_cores;
+  static auto& arenas = *new std::map<int, tbb::task_arena>;
+  const auto limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  threads = static_cast<int>(std::min(static_cast<std::size_t>(threads), limit));
   const std::lock_guard lock(mutex);
-  if (threads > tbb::info::default_concurrency() && !more_threads_than_cores) {
-    constexpr std::size_t kMaxParallelism = 1024;
-    more_threads_than_cores =
-        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, kMaxParallelism);
-  }
   return arenas.try_emplace(threads, threads).first->second;
 }
 
@@ -65,12 +81,17 @@ class Section {
 }  // namespace
 
 void parallel_for(int threads, int count, void (*call)(void*, int), void* context) {
+  if (!may_use_tbb()) {
+    for (int i = 0; i < count; ++i) call(context, i);
+    return;
+  }
   Section section;
   arena_for(threads).execute([&] {
     tbb::parallel_for(
         0, count,
         [&](int i) {
           section.task_begins();
+          const DefaultFloatState state;  // this may be one of oneTBB's threads
           call(context, i);
           section.task_ends();
         },
@@ -80,10 +101,18 @@ void parallel_for(int threads, int count, void (*call)(void*, int), void* contex
 
 }  // namespace edgewise::detail
 
+void edgewise::allow_more_threads_than_cores() {
+  using tbb::global_control;
+  [[maybe_unused]] static const auto& kept =
+      *new global_control(global_control::max_allowed_parallelism, 1024);
+}
+
 #else
 
 void edgewise::detail::parallel_for(int, int count, void (*call)(void*, int), void* context) {
   for (int i = 0; i < count; ++i) call(context, i);
 }
+
+void edgewise::allow_more_threads_than_cores() {}
 
 #endif

@@ -10,7 +10,12 @@ namespace detail {
 void parallel_for(int threads, int count, void (*call)(void*, int), void* context);
 }
 
+// Lets oneTBB start more threads than there are cores, for the rest of the process. For programs that want
+// it: the library leaves such limits to them.
+void allow_more_threads_than_cores();
+
 // Calls body(0) … body(count - 1), each once, on up to `threads` threads, and returns when all are done.
+// oneTBB may have fewer, and a forked child gets only the caller's if its parent was here before.
 // Calls must not write memory that another one accesses. An exception thrown by one is rethrown here.
 template <typename Body>
 void parallel_for(int threads, int count, Body&& body) {

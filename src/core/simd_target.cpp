@@ -9,7 +9,7 @@
 namespace edgewise {
 
 std::span<const SimdTarget> supported_targets() {
-  static const auto supported = [] {
+  static const auto& supported = *new auto([] {  // threads may draw until the process has ended
     auto compiled_and_runnable = HWY_TARGETS;
     // The static target runs wherever this file does. Highway 1.0.3 would ask for more: NEON with AES.
 #if HWY_TARGETS & ~(HWY_STATIC_TARGET | HWY_SCALAR)
@@ -21,9 +21,12 @@ std::span<const SimdTarget> supported_targets() {
     if (compiled_and_runnable & HWY_AVX3) list.push_back(SimdTarget::avx512);
     if (compiled_and_runnable & HWY_NEON) list.push_back(SimdTarget::neon);
     return list;
-  }();
+  }());
   return supported;
 }
+
+// Made when the library is loaded: a child that is forked while a thread makes it would wait for ever.
+[[maybe_unused]] static const auto kMade = supported_targets();
 
 std::string_view name_of(SimdTarget target) {
   switch (target) {

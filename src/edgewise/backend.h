@@ -1,5 +1,11 @@
 // The interface that all backends share, and their registry: screen triangles → depth and payload of every
-// pixel. All backends draw the same bits (contract.h).
+// pixel. All backends draw the same bits (contract.h), in whatever floating-point state the caller is:
+// functions that compute with floats do so in C's default state, on each thread that they use, and put back
+// what they found, with the exceptions that had been raised.
+//
+// The rest of the process stays as it was, too, but for idle threads of oneTBB. A child that was forked after
+// a draw on several threads draws on its caller's thread, whatever `threads` says. It must not use an object
+// that another thread of its parent used at the fork.
 //
 // Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
 // The front of a triangle is the side whose vertices appear clockwise (camera.h).
@@ -21,14 +27,17 @@
 #include "edgewise/simd_target.h"
 
 namespace edgewise {
+class TriangleSource;  // internal
+}
+
+namespace EDGEWISE_PUBLIC edgewise {
 
 class Frontend;
 struct FrontendOptions;
-class TriangleSource;  // internal
 
 // How to draw. No choice here changes a bit of the picture.
 struct Execution {
-  int threads = 1;     // 1 … kMaxThreads
+  int threads = 1;     // at most; 1 … kMaxThreads. oneTBB's limit holds too: by default, as many as cores
   int tile_size = 64;  // px; 16, 32 or 64; used by the tiled backend only
   SimdTarget target = SimdTarget::best;
 };

@@ -13,7 +13,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/scene.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // What barycentrics() writes, in the caller's memory. Row 0 is the top. Strides count floats from row to row.
 // A plane that is null is not written.

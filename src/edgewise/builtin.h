@@ -14,7 +14,7 @@
 
 #include "edgewise/scene.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 struct SceneRequest {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide; scenes of meshes ignore it

@@ -17,7 +17,7 @@
 
 #include <glm/glm.hpp>
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 struct Camera {
   glm::dvec3 position{0.0};

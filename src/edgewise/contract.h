@@ -104,7 +104,7 @@ inline constexpr std::uint32_t kDepthError = 34;
 static_assert(kDepthHead > kDepthError && kDepthCell == kMaxTile);
 static_assert(kDepthRange % 4 == 0 && kDepthRange < std::uint32_t{1} << 31);
 
-// Contract units → depth from 0 (near) to 1 (far). The background becomes 1.
+// Contract units → depth from 0 (near) to 1 (far), rounded in the caller's mode. The background becomes 1.
 constexpr double depth01(std::uint32_t depth) {
   return std::clamp((static_cast<double>(depth) - kDepthHead) / kDepthRange, 0.0, 1.0);
 }

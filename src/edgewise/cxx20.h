@@ -6,3 +6,7 @@
 #if __cplusplus < 202002L
 #include "Edgewise needs C++20: compile with -std=c++20"
 #endif
+
+// Of the namespaces in public headers: shared libraries export what they declare, whatever the compiler's
+// flags.
+#define EDGEWISE_PUBLIC [[gnu::visibility("default")]]

@@ -18,7 +18,13 @@
  * and a frame of its own, while none changes it. Two must not draw into one frame, not even into different
  * parts of it.
  *
- * Pictures are the same, bit for bit, on every machine, for every backend and number of threads. */
+ * Pictures are the same, bit for bit, on every machine, for every backend and number of threads, and in every
+ * floating-point state: functions compute in C's default one on each thread that they use, and put back what
+ * they found, with the exceptions that had been raised.
+ *
+ * The process stays as it was, but for idle threads of oneTBB. A child that was forked after a draw on
+ * several threads draws on one, whatever `threads` says; it must not use an object that another thread used
+ * at the fork. */
 #ifndef EDGEWISE_EDGEWISE_H
 #define EDGEWISE_EDGEWISE_H
 
@@ -28,6 +34,7 @@
 /* Raised when a function or a struct changes so that programs must be compiled anew. */
 #define EDGEWISE_ABI 2
 
+#pragma GCC visibility push(default) /* what a shared library exports */
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -155,7 +162,7 @@ typedef struct edgewise_options {
   uint32_t first_id; /* 0, or in a draw over others the number of their triangles; with this scene's at
                         most 2^30 */
   int unlit;         /* if not 0, colours are not multiplied by the light */
-  int threads;       /* 1 ... 256 */
+  int threads;       /* 1 ... 256: at most so many, and at most as many as oneTBB's limit for the process */
   int keep; /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */
   uint32_t background; /* the payload where no triangle is visible, unless `keep` */
   int scissor[4]; /* x, y, width, height: the only pixels that are drawn; the others keep what they hold */
@@ -217,4 +224,5 @@ edgewise_status edgewise_hash(edgewise_frame frame, uint64_t* hash);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -11,7 +11,7 @@
 #include <memory>
 #include <new>
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // A read-only view of a frame. Row y starts at depth + y * stride and payload + y * stride; row 0 is the top.
 // `payload` is null if only depth was drawn.

@@ -1,5 +1,6 @@
 // The front end turns a scene into screen triangles: it transforms, culls, clips, projects, snaps and shades.
-// It is the only part that converts floats to fixed point.
+// It is the only part that converts floats to fixed point. It computes in C's default floating-point state,
+// and puts back the caller's.
 //
 // Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
 // The front of a triangle is the side whose vertices appear clockwise (camera.h).
@@ -17,6 +18,10 @@
 #include "edgewise/simd_target.h"
 
 namespace edgewise {
+class TriangleSource;  // internal
+}
+
+namespace EDGEWISE_PUBLIC edgewise {
 
 // Which triangles to drop for their facing.
 enum class Cull { none, back, front, both };
@@ -51,7 +56,7 @@ struct FrontendOptions {
   // The id of the first triangle. A draw over others sets it to the number of triangles that they submitted:
   // then two draws equal one of both, ids included.
   std::uint32_t first_id = 0;
-  int threads = 1;  // 1 … kMaxThreads
+  int threads = 1;  // at most; 1 … kMaxThreads (see Execution)
   // For measurements: keeps each triangle's vertices as they were before snapping, and does not drop
   // triangles that snapping leaves without area. Slower.
   bool keep_unsnapped = false;
@@ -94,7 +99,6 @@ class Backend;
 struct Execution;
 struct FrameView;
 struct RenderPass;
-class TriangleSource;  // internal
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 9 bytes per instance,
@@ -145,7 +149,7 @@ class Frontend {
   TriangleSource* start_source(const Drawable& drawable, const FrontendOptions& options, int workers);
   void end_source();
 
-  struct State;
+  struct [[gnu::visibility("hidden")]] State;
   std::unique_ptr<State> state_;
 };
 

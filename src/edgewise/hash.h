@@ -9,7 +9,7 @@
 
 #include "edgewise/framebuffer.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // XXH3-64 (seed 0) of these 32-bit words, of which each is four bytes, the lowest first, on every machine:
 //   width, height, then row by row from the top: the depths of the row, from the left, then its payloads,

@@ -14,7 +14,7 @@
 
 #include "edgewise/framebuffer.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // An 8-bit RGB picture. Pixels are 0xAABBGGRR. Files are written without alpha, and read as if it were 255;
 // difference() counts where it differs.

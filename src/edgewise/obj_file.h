@@ -13,7 +13,7 @@
 
 #include "edgewise/scene.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 struct ObjOptions {
   // Leaves the mesh near the origin: the instance's translation stays 0. For coordinates of a survey, say.

@@ -19,7 +19,7 @@
 
 #include "edgewise/camera.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // camera.h defines world space. Colours are 0xAABBGGRR (red in the lowest byte). Angles are in radians,
 // lengths in world units.

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // Either winding is allowed, and a triangle of zero area draws nothing. Backends rely on these ranges (rules
 // 3 and 6 of contract.h) and do not check them:

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // All targets draw the same bits.
 enum class SimdTarget { scalar, sse4, avx2, avx512, neon, best };

@@ -14,7 +14,7 @@
 
 #include "edgewise/scene.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // Reads vertices of any value, NaN included, unchanged: the front end drops those it cannot draw. Throws
 // std::runtime_error, with the file's name and the fault, if the file

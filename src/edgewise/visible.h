@@ -20,7 +20,7 @@
 #include "edgewise/framebuffer.h"
 #include "edgewise/scene.h"
 
-namespace edgewise {
+namespace EDGEWISE_PUBLIC edgewise {
 
 // The visible triangles: each id that a pixel has, once, in ascending order. Needs one bit of memory per id
 // up to the highest one. Throws std::invalid_argument for an id of kMaxTriangles or more.

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/float_state.h"
 #include "edgewise/contract.h"
 #include "frontend/in_order.h"
 #include "frontend/scene_maker.h"
@@ -172,6 +173,7 @@ Frontend::Frontend(Frontend&&) noexcept = default;
 Frontend& Frontend::operator=(Frontend&&) noexcept = default;
 
 ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& options) {
+  const DefaultFloatState state;
   State& s = *state_;
   s.set(options);
   s.run(drawable);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/finite.h"
+#include "core/float_state.h"
 
 namespace edgewise {
 
@@ -52,6 +53,7 @@ void make_clusters(Drawable& drawable) {
 }
 
 std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
+  const DefaultFloatState state;
   constexpr std::size_t kLeastTriangles = 1 << 16;
   const auto exists = [&](glm::uvec3 t) { return std::max({t.x, t.y, t.z}) < mesh.positions.size(); };
   const auto& triangles = mesh.triangles;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/finite.h"
+#include "core/float_state.h"
 #include "core/trigonometry.h"
 
 namespace edgewise {
@@ -108,6 +109,7 @@ void check(const Instance& instance) {
 }
 
 CameraMatrices matrices_of(const Camera& camera, double aspect) {
+  const DefaultFloatState state;
   check(camera);
   const glm::dmat3 turn = to_camera_frame(camera);
   glm::dmat4 view(turn);

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "core/float_state.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
@@ -129,6 +130,7 @@ Difference compare(int width, int height, int channels, const std::vector<float>
 }  // namespace
 
 Difference difference(const Image& a, const Image& b) {
+  const DefaultFloatState state;
   require_same_size(a, b);
   const auto channel_of = [](const Image& of) {
     return [&of](std::size_t i, int c) { return static_cast<int>(of.pixels[i] >> 8 * c & 255); };
@@ -137,6 +139,7 @@ Difference difference(const Image& a, const Image& b) {
 }
 
 Difference difference(const DepthMap& a, const DepthMap& b) {
+  const DefaultFloatState state;
   require_same_size(a, b);
   return compare(a.width, a.height, 1, a.depth01, b.depth01, nullptr);
 }

@@ -16,6 +16,7 @@
 #include <variant>
 
 #include "core/atomic_file.h"
+#include "core/float_state.h"
 #include "core/input_file.h"
 #include "edgewise/scene.h"
 #include "image/format.h"
@@ -145,6 +146,7 @@ void write_image(const fs::path& path, const Image& image) {
 }
 
 void write_image(const fs::path& path, const Image& image, Format format) {
+  const DefaultFloatState state;  // for libpng
   netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
   AtomicFile file(path);
   if (format == Format::png)
@@ -176,6 +178,7 @@ DepthMap read_pfm(const fs::path& path) {
 }
 
 Picture read_picture(const fs::path& path, std::vector<std::string>* warnings) {
+  const DefaultFloatState state;
   InputFile file = open_input(path);
   if (starts_with(file, "\x89PNG")) return PngReader(path, std::move(file)).read(warnings);
   for (const char* magic : {"P2", "P3", "P5", "P6"})

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/float_state.h"
 #include "core/little_endian.h"
 #include "core/parse_number.h"
 #include "edgewise/contract.h"
@@ -29,6 +30,7 @@ double read_scale(const std::filesystem::path& path, netpbm::Reader& reader) {
 }  // namespace
 
 DepthMap to_depth_map(const ConstFrameView& frame) {
+  const DefaultFloatState state;
   DepthMap map{frame.width, frame.height, {}};
   map.depth01.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
   for (int y = 0; y < frame.height; ++y)
@@ -46,6 +48,7 @@ void write_pfm(std::ostream& out, const DepthMap& map) {
 }
 
 FloatMap read_pfm(const std::filesystem::path& path, InputFile file) {
+  const DefaultFloatState state;
   netpbm::Reader reader(path, std::move(file), "fF");
   const netpbm::Size size = reader.size();
   const double scale = read_scale(path, reader);

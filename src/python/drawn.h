@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -20,6 +21,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/float_state.h"
 #include "core/input_file.h"
 #include "core/nearest_name.h"
 #include "edgewise/backend.h"
@@ -86,8 +88,10 @@ class Drawn {
   // Calls f(drawable) without the GIL, so f touches nothing of Python's.
   template <typename F>
   auto use(F&& f) {
+    if (drawer_->process != getpid()) drawer_.reset(new Drawer);
     const Released released;
-    const std::lock_guard lock(busy_);
+    const std::lock_guard lock(drawer_->busy);
+    const DefaultFloatState state;  // for the laboratory
     return f(drawable_);
   }
   template <typename F>
@@ -130,9 +134,9 @@ class Drawn {
     RenderPass pass{.background = background, .clear = clear};
     if (scissor) pass.scissor = {(*scissor)[0], (*scissor)[1], (*scissor)[2], (*scissor)[3]};
     const auto draw_view = [&](const Drawable& drawable, std::size_t i) {
-      auto& made = backends_[backend];
+      auto& made = drawer_->backends[backend];
       if (made == nullptr) made = find_backend(backend).make();
-      edgewise::draw(drawable, frontend_, options, *made, frames[i], pass, {.threads = threads});
+      edgewise::draw(drawable, drawer_->frontend, options, *made, frames[i], pass, {.threads = threads});
     };
     for_each_view(cameras, frames.views, draw_view, progress);
   }
@@ -160,10 +164,22 @@ class Drawn {
   // Short for a person. Far longer than taking the GIL, for which Python may need 5 ms.
   static constexpr std::chrono::milliseconds kTurn{50};
 
+  // A forked child makes a new one: a thread of its parent may have been drawing with the old one, which
+  // stays.
+  struct Drawer {
+    pid_t process = getpid();
+    std::mutex busy;
+    Frontend frontend;
+    std::map<std::string, std::unique_ptr<Backend>> backends;
+  };
+  struct Delete {
+    void operator()(Drawer* drawer) const {
+      if (drawer->process == getpid()) delete drawer;
+    }
+  };
+
   Drawable drawable_;
-  Frontend frontend_;
-  std::map<std::string, std::unique_ptr<Backend>> backends_;
-  std::mutex busy_;
+  std::unique_ptr<Drawer, Delete> drawer_{new Drawer};
 };
 
 // Pictures, depth maps and their differences.

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/float_state.h"
 #include "core/parallel.h"
 #include "edgewise/contract.h"
 #include "edgewise/visible.h"
@@ -215,6 +216,7 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
 
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
                   const BarycentricsView& out) {
+  const DefaultFloatState state;
   check(options, ids, out);
   FrontendOptions resolved = options;
   resolved.target = resolve(options.target);

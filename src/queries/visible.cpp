@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/finite.h"
+#include "core/float_state.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 #include "frontend/fixed.h"
@@ -124,6 +125,7 @@ std::vector<std::uint32_t> pixels_per_mesh(const ConstFrameView& ids, const Scen
 // The largest errors of rule 10 are convex functions of a point, or quotients of one by w. So in the box,
 // they are largest at a corner, as are x, y, z / w and w.
 bool visible(const Bounds& box, const Scene& scene, const ConstFrameView& depth) {
+  const DefaultFloatState state;
   check(depth, false);
   const View view(scene, depth.width, depth.height);
   if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) return false;

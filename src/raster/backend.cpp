@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/float_state.h"
 #include "edgewise/contract.h"
 #include "raster/checks.h"
 
@@ -59,6 +60,7 @@ FramePart Backend::with_payload(FramePart part) {
 
 void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, const RenderPass& pass,
                    const Execution& execution) {
+  const DefaultFloatState state;
   const Execution resolved = checked(frame, execution);
   const FramePart part = checked(frame, pass);
   if (triangles.size() > kMaxTriangles)

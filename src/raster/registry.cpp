@@ -38,4 +38,7 @@ const BackendInfo& wireframe() {
   return info;
 }
 
+// Made when the library is loaded: a child that is forked while a thread makes them would wait for ever.
+[[maybe_unused]] static const auto kMade = (wireframe(), backends());
+
 }  // namespace edgewise

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/float_state.h"
 #include "core/nearest_name.h"
 #include "core/random.h"
 #include "core/trigonometry.h"
@@ -83,6 +84,7 @@ Camera camera_at(glm::vec3 position, glm::vec3 target) {
 }
 
 Drawable cube(const SceneRequest& request) {
+  const DefaultFloatState state;
   Scene scene;
   scene.meshes.push_back(cube_mesh());
   scene.instances.push_back({.axis = {0.4f, 1.0f, 0.2f}, .angle = 0.6f + 0.8f * request.time});
@@ -91,6 +93,7 @@ Drawable cube(const SceneRequest& request) {
 }
 
 Drawable cubes(const SceneRequest& request) {
+  const DefaultFloatState state;
   Scene scene;
   scene.meshes.push_back(cube_mesh());
   const float turn = 0.5f * request.time;
@@ -110,6 +113,7 @@ Drawable cubes(const SceneRequest& request) {
 // of cells is a power of two, so the angles are symmetric, and neighbouring faces get the same bits along
 // their common edge.
 Drawable sphere(const SceneRequest& request) {
+  const DefaultFloatState state;
   constexpr unsigned kSide = 64;  // cells: 6 * 64^2 * 2 = 49,152 triangles
   // Equal angles, not equal lengths, keep the cells similar. The ends are exactly -1 and 1.
   const auto bend = [](float t) {
@@ -136,6 +140,7 @@ Drawable sphere(const SceneRequest& request) {
 }
 
 Drawable torus_knot(const SceneRequest& request) {
+  const DefaultFloatState state;
   constexpr unsigned kAlong = 1024, kAround = 24;  // cells: 49,152 triangles
   constexpr float kTube = 0.32f;                   // radius
   // The (2, 3) knot on a torus of radii 1.2 and 0.5.
@@ -171,6 +176,7 @@ Drawable torus_knot(const SceneRequest& request) {
 
 // Instanced knots: many instances that occlude each other, with more than a million triangles.
 Drawable knots(const SceneRequest& request) {
+  const DefaultFloatState state;
   constexpr int kSide = 6;          // knots per row and column at scale 1
   constexpr float kSpacing = 2.6f;  // less than the width of a knot
   constexpr double kTrianglesOfKnot = 49'152;
@@ -214,6 +220,7 @@ float value_noise(float x, float y) {
 
 // The camera is in the middle, so triangles cross the near plane and every side of the view.
 Drawable terrain(const SceneRequest& request) {
+  const DefaultFloatState state;
   constexpr unsigned kSide = 512;  // cells: 524,288 triangles
   constexpr float kExtent = 40.0f, kHeight = 4.0f;
   const auto height = [](float x, float z) {

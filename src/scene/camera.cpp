@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/finite.h"
+#include "core/float_state.h"
 #include "core/trigonometry.h"
 
 namespace edgewise {
@@ -26,6 +27,7 @@ DepthTerms depth_terms(double near_z, double far_z) {
 }  // namespace
 
 void Camera::look_at(glm::dvec3 target) {
+  const DefaultFloatState state;
   glm::dvec3 back = position - target;
   if (back == glm::dvec3(0.0)) return;
   back /= std::max({std::abs(back.x), std::abs(back.y), std::abs(back.z)});  // so that squares stay in range
@@ -34,6 +36,7 @@ void Camera::look_at(glm::dvec3 target) {
 }
 
 glm::dmat4 perspective_projection(double fov_y, double aspect, double near_z, double far_z) {
+  const DefaultFloatState state;
   const DepthTerms depth = depth_terms(near_z, far_z);
   if (!(fov_y > 0.0 && fov_y < std::numbers::pi))
     throw std::invalid_argument("a field of view must be between 0 and 180 degrees");
@@ -45,6 +48,7 @@ glm::dmat4 perspective_projection(double fov_y, double aspect, double near_z, do
 
 glm::dmat4 orthographic_projection(double left, double right, double bottom, double top, double near_z,
                                    double far_z) {
+  const DefaultFloatState state;
   const glm::dvec3 low(left, bottom, near_z), high(right, top, far_z), size = high - low;
   if (!is_finite(low) || !is_finite(high) || !is_finite(1.0 / size))
     throw std::invalid_argument("an orthographic projection needs three finite ranges that are not empty");
@@ -55,6 +59,7 @@ glm::dmat4 orthographic_projection(double left, double right, double bottom, dou
 
 glm::dmat4 intrinsics_projection(const glm::dmat3& k, int width, int height, double first_centre,
                                  double near_z, double far_z) {
+  const DefaultFloatState state;
   const DepthTerms depth = depth_terms(near_z, far_z);
   if (width < 1 || height < 1) throw std::invalid_argument("an image has at least one pixel");
   if (!is_finite(k[0]) || !is_finite(k[1]) || !is_finite(k[2]) || !std::isfinite(first_centre))
@@ -74,6 +79,7 @@ glm::dmat4 intrinsics_projection(const glm::dmat3& k, int width, int height, dou
 }
 
 glm::dmat4 projection_from(ClipSpace space, const glm::dmat4& projection) {
+  const DefaultFloatState state;
   glm::dmat4 m = projection;
   for (int i = 0; i < 4; ++i) {
     if (space.y_down) m[i].y = -m[i].y;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/finite.h"
+#include "core/float_state.h"
 #include "core/trigonometry.h"
 #include "edgewise/scene.h"
 
@@ -33,6 +34,7 @@ void for_each_corner(const Scene& scene, const Visit& visit) {
 }  // namespace
 
 Bounds bounds_of(const Scene& scene) {
+  const DefaultFloatState state;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Bounds box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
   for_each_corner(scene, [&](const glm::dvec3& p) {
@@ -43,6 +45,7 @@ Bounds bounds_of(const Scene& scene) {
 }
 
 void frame_camera(Scene& scene, double aspect) {
+  const DefaultFloatState state;
   const auto [low, high] = bounds_of(scene);
   const glm::dvec3 centre = low.x <= high.x ? low + 0.5 * (high - low) : glm::dvec3(0.0);
   double radius = 0.0;
@@ -64,6 +67,7 @@ void frame_camera(Scene& scene, double aspect) {
 }
 
 void fit(Scene& scene) {
+  const DefaultFloatState state;
   const auto [low, high] = bounds_of(scene);
   const glm::dvec3 size = high - low;
   const double longest = std::max({size.x, size.y, size.z});

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/float_state.h"
 #include "core/input_file.h"
 #include "core/parse_number.h"
 #include "edgewise/limits.h"
@@ -438,6 +439,7 @@ class Reader {
 }  // namespace
 
 Scene read_obj(const std::filesystem::path& path, const ObjOptions& options, ObjReport* report) {
+  const DefaultFloatState state;
   ObjReport ignored;
   ObjReport& out = report == nullptr ? ignored : *report;
   out = {};

@@ -3,6 +3,7 @@
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/float_state.h"
 #include "core/trigonometry.h"
 
 namespace edgewise {
@@ -17,6 +18,7 @@ std::array<glm::vec3, 3> corners_of(const Mesh& mesh, std::size_t triangle) {
 }  // namespace
 
 glm::vec3 face_normal(std::span<const glm::vec3> vertices) {
+  const DefaultFloatState state;
   glm::dvec3 sum(0.0);
   const glm::dvec3 first(vertices[0]);
   for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
@@ -46,6 +48,7 @@ void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
 }
 
 glm::dmat4 model_matrix(const Instance& instance) {
+  const DefaultFloatState state;
   if (instance.matrix) return *instance.matrix;
   glm::dmat4 m = glm::translate(glm::dmat4(1.0), instance.translation);
   if (instance.angle != 0.0f && instance.axis != glm::vec3(0.0f))

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/float_state.h"
 #include "core/random.h"
 
 namespace edgewise {
@@ -33,6 +34,7 @@ void check_triangles(double triangles, double scale) {
 
 TriangleStream random_stream(const SceneRequest& request, std::size_t count, double area_px, double aspect,
                              std::uint64_t seed) {
+  const DefaultFloatState state;
   const double wanted = std::max(1.0, std::round(static_cast<double>(count) * request.scale));
   check_triangles(wanted, request.scale);
   Random random(seed);
@@ -62,6 +64,7 @@ TriangleStream random_stream(const SceneRequest& request, std::size_t count, dou
 }
 
 TriangleStream jittered_grid(const SceneRequest& request, double cell_px, std::uint64_t seed) {
+  const DefaultFloatState state;
   // A jitter j below 1/4 of a cell flips no triangle: twice its area is at least (1 - 2j)^2 - (2j)^2 = 1 - 4j
   // cells.
   constexpr float kJitter = 0.2f;
@@ -101,6 +104,7 @@ TriangleStream jittered_grid(const SceneRequest& request, double cell_px, std::u
 }
 
 TriangleStream aligned_squares(const SceneRequest& request, std::uint64_t seed) {
+  const DefaultFloatState state;
   constexpr int kSides_px[] = {16, 32, 64};
   const auto squares = [&](int length_px, int side_px) { return (length_px + side_px - 1) / side_px; };
   double at_scale_1 = 0.0;

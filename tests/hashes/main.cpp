@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/parallel.h"
 #include "edgewise/contract.h"
 #include "edgewise/hash.h"
 #include "hashes/frames.h"
@@ -377,6 +378,7 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace edgewise::hashes
 
 int main(int count, char** arguments) try {
+  edgewise::allow_more_threads_than_cores();
   return edgewise::hashes::run({arguments + 1, arguments + count});
 } catch (const std::exception& error) {
   return std::fprintf(stderr, "%s\n", error.what()), 2;

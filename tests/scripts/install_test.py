@@ -59,6 +59,20 @@ class Installed(unittest.TestCase):
         cls.prefix = cls.folder / "moved"  # an installed copy may be moved as a whole
         first.rename(cls.prefix)
 
+    def check_exports(self, library, whole=False):
+        """Checks that a library exports no more of ours than the public headers declare; `whole`: all of C's, and nothing else."""
+        headers = "".join(path.read_text() for path in (ROOT / "src" / "edgewise").glob("*.h"))
+        exported = re.findall(r"^\S* ?\w (.*)$", run("nm", "-DC", "--defined-only", library), re.MULTILINE)
+        ours = [name for name in exported if "edgewise" in re.sub(r"[(<].*", "", name)]
+        self.assertTrue(ours)
+        for name in ours:
+            for word in re.findall(r"\w+", re.search(r"edgewise[\w:~]*", name).group()):
+                self.assertRegex(headers, rf"\b{word}\b", name)
+        if whole:
+            self.assertEqual(ours, exported)
+            functions = set(re.findall(r"\bedgewise_\w+(?=\()", (ROOT / "src/edgewise/edgewise.h").read_text()))
+            self.assertEqual({name for name in exported if name.startswith("edgewise_")}, functions)
+
     def use(self, folder, environment=None):
         """Runs the consumer's programs, which were built in `folder`."""
         run(folder / "frames", env=environment)
@@ -84,6 +98,7 @@ class Installed(unittest.TestCase):
         configure(CONSUMER, build, f"-DCMAKE_PREFIX_PATH={prefix}", *options)
         run("cmake", "--build", build)
         self.use(build)
+        self.check_exports(build / "libplugin.so")
         rules = build / "build.ninja"
         if not rules.exists():
             rules = build / "CMakeFiles" / "consumer.dir" / "flags.make"
@@ -91,33 +106,30 @@ class Installed(unittest.TestCase):
         self.assertIn("-std=", " ".join(flags))
         for leaked in ("-f", "-W", "-D", "-m"):
             self.assertFalse([flag for line in flags for flag in line.split()
-                              if flag.startswith(leaked) and flag != "-DNDEBUG"], "a flag leaks")
+                              if flag.startswith(leaked) and flag not in ("-DNDEBUG", "-fPIC", "-Dplugin_EXPORTS")], "a flag leaks")
 
     def pkg_config(self, prefix):
-        """The command, and the environment for it and for programs that are built with it."""
-        environment = {"PKG_CONFIG_PATH": str(next(prefix.rglob("edgewise.pc")).parent)}
-        shared = list(prefix.rglob("libedgewise.so"))
-        if shared:
-            environment["LD_LIBRARY_PATH"] = str(shared[0].parent)
-        return ("pkg-config", *(() if shared else ("--static",))), environment
+        """The environment for it and for programs that are built with it."""
+        package = next(prefix.rglob("edgewise.pc"))
+        return {"PKG_CONFIG_PATH": str(package.parent), "LD_LIBRARY_PATH": str(package.parents[1])}
 
     def use_pkg_config(self, prefix, name):
         build = self.folder / name
         build.mkdir()
-        pkg_config, environment = self.pkg_config(prefix)
+        environment = self.pkg_config(prefix)
         compiler = cached("CMAKE_CXX_COMPILER")
-        version = run(*pkg_config, "--modversion", "edgewise", env=environment)
+        version = run("pkg-config", "--modversion", "edgewise", env=environment)
         self.assertEqual(version, cached("CMAKE_PROJECT_VERSION") + "\n")
         for package in prefix.rglob("*.pc"):
             self.assertIn("\nLicense: MIT\n", package.read_text())
         for program, source, package in (("consumer", "main", "edgewise-files"), ("picture", "picture", "edgewise-files"),
                                          ("frames", "frames", "edgewise"), ("square", "square", "edgewise"),
                                          ("seen", "seen", "edgewise")):
-            flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
+            flags = run("pkg-config", "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
             run(compiler, "-std=c++20", CONSUMER / f"{source}.cpp", "-o", build / program, *flags)
-        run("cc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", *(flag for flag in flags if flag.startswith("-I")), "-c", CONSUMER / "square.c", "-o", build / "square_c.o")
-        run(compiler, build / "square_c.o", "-o", build / "square_c", *flags)
+        run("cc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fvisibility=hidden", CONSUMER / "square.c",
+            "-o", build / "square_c", *flags)
         self.use(build, environment)
 
     def test_a_package_for_cmake(self):
@@ -131,8 +143,8 @@ class Installed(unittest.TestCase):
         mesh.write_text("v 0 0 0\nv 1 0 0.3\nv 1 1.1 0\nv 0 1 0.7\nf 1 2 3 4\nf 1 4 2\n")
         scenes, frames = ("cube", "cubes", "sphere", "torus-knot", mesh), 4
         said = run(next(self.prefix.rglob("bin/edgewise")), "hash", *scenes, "--size", "320x160", "--frames", frames, "--fps", 32)
-        pkg_config, environment = self.pkg_config(self.prefix)
-        flags = run(*pkg_config, "--cflags", "--libs", "edgewise-files", env=environment).split()
+        environment = self.pkg_config(self.prefix)
+        flags = run("pkg-config", "--cflags", "--libs", "edgewise-files", env=environment).split()
         for compiler in ("g++", "clang++-14"):
             with self.subTest(compiler):
                 if shutil.which(compiler) is None and not FULL:
@@ -223,11 +235,12 @@ class Installed(unittest.TestCase):
                   f"-DBUILD_SHARED_LIBS={'ON' if shared else 'OFF'}",
                   *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in LABORATORY_PACKAGES))
         ours = {target for target in targets(build) if re.match("edgewise_|fuzz_", target)}
-        self.assertLessEqual(ours, {"edgewise_files"})
+        self.assertLessEqual(ours, {"edgewise_files", "edgewise_files_inside", "edgewise_inside"})
         self.assertRegex((build / "CMakeCache.txt").read_text(), r"(?m)^CMAKE_BUILD_TYPE:\w+=$")  # the consumer's choice
         if FULL:
             run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
             self.use(build)
+            self.check_exports(build / "libplugin.so")
 
     def test_add_subdirectory(self):
         self.build_along("subdirectory", shared=False)
@@ -238,12 +251,13 @@ class Installed(unittest.TestCase):
     @unittest.skipUnless(FULL, "compiles the library anew")
     def test_a_shared_library(self):
         build, prefix = self.folder / "shared", self.folder / "shared-prefix"
-        configure(ROOT, build, "-DBUILD_SHARED_LIBS=ON", "-DEDGEWISE_LABORATORY=OFF")
+        configure(ROOT, build, "-DBUILD_SHARED_LIBS=ON", "-DEDGEWISE_LABORATORY=OFF", "-DCMAKE_CXX_FLAGS=-fvisibility=hidden")
         run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
         run("cmake", "--install", build, "--prefix", prefix)
         for name in ("edgewise", "edgewise_files"):
             self.assertIn(f"Library soname: [lib{name}.so.0.2]",
                           run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
+            self.check_exports(next(prefix.rglob(f"lib{name}.so")), whole=name == "edgewise")
         self.use_package(prefix, "shared-package")
         self.use_pkg_config(prefix, "shared-pkg-config")
 

@@ -1,0 +1,31 @@
+#include "core/float_state.h"
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+
+namespace edgewise {
+
+// Only that of SSE, as nothing here uses the x87 unit. Its state takes longer to change than a task may last.
+DefaultFloatState::DefaultFloatState() : callers_(_mm_getcsr()) {
+  constexpr unsigned kDefault = _MM_MASK_MASK | _MM_ROUND_NEAREST | _MM_FLUSH_ZERO_OFF;
+  if ((callers_ & ~unsigned{_MM_EXCEPT_MASK}) != kDefault) _mm_setcsr(kDefault);
+}
+DefaultFloatState::~DefaultFloatState() {
+  if (_mm_getcsr() != callers_) _mm_setcsr(callers_);
+}
+
+}  // namespace edgewise
+#elif !defined(__wasm__)
+
+namespace edgewise {
+
+DefaultFloatState::DefaultFloatState() {
+  std::fegetenv(&callers_);
+  std::fesetenv(FE_DFL_ENV);
+}
+DefaultFloatState::~DefaultFloatState() {
+  std::fesetenv(&callers_);
+}
+
+}  // namespace edgewise
+#endif

@@ -1,0 +1,66 @@
+"""Forks and floating-point modes of the process that imports the package."""
+import ctypes
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+from support import CAMERA, SIZE, scene, stream, triangles
+
+import edgewise
+
+
+def hash_of(drawn, threads=2):
+    return edgewise.pixel_hash(drawn.draw(CAMERA, SIZE, ids=True, threads=threads))
+
+
+def status_of_child(check):
+    """0 if the child finds check() true, the number of SIGALRM if it hangs."""
+    child = os.fork()
+    if child == 0:
+        signal.alarm(60)
+        os._exit(0 if check() else 1)
+    return os.waitpid(child, 0)[1]
+
+
+def many():
+    positions, indices, _ = triangles(20_000)
+    return edgewise.Scene(positions, indices)
+
+
+def test_a_forked_child_draws_while_a_thread_of_its_parent_draws():
+    idle, busy, done = many(), many(), threading.Event()
+    expected = hash_of(idle)
+
+    def draw():
+        while not done.is_set():
+            busy.draw([CAMERA] * 4, SIZE, threads=2)
+    thread = threading.Thread(target=draw)
+    thread.start()
+    try:
+        for _ in range(10):
+            for drawn in (lambda: idle, lambda: busy, many):
+                assert status_of_child(lambda: hash_of(drawn()) == expected) == 0
+    finally:
+        done.set()
+        thread.join()
+
+
+@pytest.mark.skipif(os.uname().machine != "x86_64", reason="the numbers are those of x86-64")
+@pytest.mark.parametrize("mode", [0x400, 0x800, 0xC00])
+def test_the_rounding_mode_changes_nothing_and_is_kept(mode):
+    libm = ctypes.CDLL("libm.so.6")
+    drawn, triangle_stream = scene(), stream()
+
+    def numbers():
+        uv, distance = drawn.barycentrics(drawn.draw(CAMERA, SIZE, ids=True), CAMERA)
+        return [hash_of(drawn), edgewise.pixel_hash(triangle_stream.draw()), uv, distance, edgewise.perspective(0.7, 1.3, 0.1, 9)]
+    expected = numbers()
+    libm.fesetround(mode)
+    try:
+        found = numbers()
+        assert libm.fegetround() == mode
+    finally:
+        libm.fesetround(0)
+    assert all(map(np.array_equal, found, expected))
