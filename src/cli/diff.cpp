@@ -76,12 +76,12 @@ constexpr const char* kDiffFooter = R"(Examples:
   edgewise diff golden.png now.png --mask mask.png    (the mask of `edgewise portable`)
   edgewise render cube -o - | edgewise diff - golden.png
 
-The kind of a file is that of its content. Pictures (PNG, PGM, PPM) are compared sample by sample, as
-RGB: palettes are looked up, and grey is R = G = B. Pixels whose alpha differs are counted apart, and
-don't change the exit status. Nothing converts colours: gAMA, iCCP, sRGB and cHRM are ignored. An
-8-bit sample v equals the 16-bit sample 257 v. If one of the pictures has 16 bits, the difference is
-given of 65535, otherwise of 255. Samples of a PGM or PPM with another maximum are scaled to 255 or
-65535 and rounded. PFMs are compared as floats, with one channel or three; a difference to NaN is
+The kind of a file is that of its content. Pictures (PNG, PGM, PPM) are compared sample by sample,
+as RGB: palettes are looked up, and grey is R = G = B. Pixels whose alpha differs are counted apart,
+and don't change the exit status. Nothing converts colours: gAMA, iCCP, sRGB and cHRM are ignored.
+An 8-bit sample v equals the 16-bit sample 257 v. If one of the pictures has 16 bits, the difference
+is given of 65535, otherwise of 255. Samples of a PGM or PPM with another maximum are scaled to 255
+or 65535 and rounded. PFMs are compared as floats, with one channel or three; a difference to NaN is
 infinite. With --mask, pixels count as equal where the mask is not black.
 
 One of A, B and --mask may be standard input: - or /dev/stdin. With -o -, messages go to stderr.

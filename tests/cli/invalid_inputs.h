@@ -36,7 +36,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise render cube -o $DIR/a.png --colour", 2, "--colour"},
     {"edgewise capture cube", 2, "--output is required"},
     {"edgewise diff $IN/small.ppm", 2, "B is required"},
-    {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/good.obj", 2, "is neither a .png nor a .ppm"},
+    {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/good.obj", 2, "is neither a PNG, "},
     {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/none.png", 2, "none.png: No such file"},
     {"edgewise hash cub", 2, "did you mean 'cube'"},
     {"edgewise hash cube --frames 0", 2, "--frames"},

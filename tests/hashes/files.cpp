@@ -25,7 +25,8 @@ InputFile input(const std::string& bytes) {
 
 Image image_of(const Samples& samples) {
   Image image{samples.width, samples.height, {}};
-  for (const auto& [r, g, b] : samples.pixels) image.pixels.push_back(rgb(r / 257u, g / 257u, b / 257u));
+  for (const auto& [r, g, b, alpha] : samples.pixels)
+    image.pixels.push_back(rgb(r / 257u, g / 257u, b / 257u));
   return image;
 }
 
@@ -45,7 +46,8 @@ const FileFormat kPpm{
 const FileFormat kPfm{
     [](const Drawable&, const ConstFrameView& frame) { return bytes_of(write_pfm, to_depth_map(frame)); },
     [](const std::string& name, const std::string& bytes) {
-      return bytes_of(write_pfm, read_pfm(name, input(bytes)));
+      const FloatMap map = read_pfm(name, input(bytes));
+      return bytes_of(write_pfm, DepthMap{map.width, map.height, map.values});
     }};
 
 }  // namespace edgewise::hashes
