@@ -16,7 +16,7 @@
 namespace edgewise {
 
 struct ObjOptions {
-  // Leaves the mesh near the origin: the instance's translation stays 0. For coordinates of a survey, say.
+  // Leaves the mesh near 0: its origin stays 0. For coordinates of a survey, say.
   bool recentre = false;
 };
 
@@ -35,10 +35,10 @@ struct ObjReport {
 // - A face has the mean colour of its vertices if all have one (v x y z r g b), or else its material's Kd, or
 //   else light grey. Its .mtl files are regular files, sought in the folder of the OBJ file, or in the
 //   current one if that is read from a descriptor.
-// - Positions are read in double. If they are far from the origin, more than 4 times the longest side of the
-//   box around them, the mesh holds them relative to an offset near the box's centre, and the instance's
-//   translation is that offset: so float keeps what the file says. `options` may ask for the offset without
-//   the translation.
+// - Positions are read in double. If they are far from 0, more than 4 times the longest side of the box
+// around
+//   them, the mesh holds them relative to an offset near the box's centre, which is Mesh::origin: so float
+//   keeps what the file says. `options` may ask for the offset without the origin.
 // Throws std::runtime_error, with the file's name and the fault, if the file is missing, malformed, without
 // faces or larger than kMaxObjBytes, or if an index is out of range.
 Scene read_obj(const std::filesystem::path& path, const ObjOptions& options = {},

@@ -45,15 +45,43 @@ class Camera(NamedTuple):
     projection: NDArray[np.float64]
 
 
-class Frame(NamedTuple):
+class Stats(NamedTuple):
+    """Counts of a draw, added up over its views.
+
+    triangles = whole_mesh + not_finite + outside + not_in_front + those that become pieces; pieces = culled + zero_area +
+    emitted.
+    """
+    meshes: int  # instances
+    meshes_culled: int  # of these, out of view
+    triangles: int
+    whole_mesh: int  # dropped with their instance, which is out of view
+    not_finite: int  # dropped: a vertex is NaN or infinite
+    outside: int  # dropped: out of view
+    not_in_front: int  # dropped: behind the camera
+    clipped: int
+    clipped_near: int
+    clipped_far: int
+    clipped_guard: int
+    pieces: int  # triangles after clipping
+    culled: int  # pieces dropped for their facing
+    zero_area: int  # pieces dropped: no area once rounded to 1/256 px
+    emitted: int  # pieces drawn
+
+
+class _Planes(NamedTuple):
+    payload: NDArray[np.uint32] | None
+    depth: NDArray[np.uint32]
+
+
+class Frame(_Planes):
     """What a draw wrote: shape (height, width), or (views, height, width) for several cameras. Screen: as this module says.
 
+    A named tuple of two planes: ids, depth = frame. stats: the counts of the draw that returned it; else None.
     payload: uint32, ids or colours 0xAABBGGRR; None if only depth was drawn. An id is the number of a triangle, counted
     through the instances in order. Colours in memory are R, G, B, A: payload[..., None].view(np.uint8).
     depth: uint32, smaller is nearer; depth01() converts it.
     """
-    payload: NDArray[np.uint32] | None
-    depth: NDArray[np.uint32]
+    stats: Stats | None = None
 
 
 class Difference(NamedTuple):
@@ -150,7 +178,8 @@ def perspective(fov_y: float, aspect: float, near: float, far: float = math.inf)
 def orthographic(left: float, right: float, bottom: float, top: float, near: float, far: float) -> NDArray[np.float64]:
     """The projection without perspective, shape (4, 4), from the same view space as perspective()'s.
 
-    All are coordinates or distances in view space. ValueError if two opposite ones are equal.
+    All are coordinates or distances in view space. left > right or bottom > top mirrors the picture. ValueError if two of
+    these are equal, and unless near < far: projection_from() converts reversed depth.
     """
     return _native.orthographic(left, right, bottom, top, near, far)
 
@@ -275,8 +304,8 @@ class _Drawable:
                 raise ValueError(f"onto has the shape {np.shape(frame.depth)}, not {shape}")
             if not clear and np.max(frame.depth) > DEPTH_CLEAR:
                 raise ValueError("onto has a depth above DEPTH_CLEAR")
-        self._native.draw(*_matrices(cameras), None if depth_only else frame.payload, frame.depth, ids, *options, background,
-                          clear or onto is None, scissor)
+        frame.stats = Stats(*self._native.draw(*_matrices(cameras), None if depth_only else frame.payload, frame.depth, ids,
+                                               *options, background, clear or onto is None, scissor))
         return frame
 
 
@@ -311,11 +340,13 @@ class Scene(_Drawable):
                  two_sided: bool = False) -> int:
         """Adds a mesh, which only its instances show, and returns its number. Copies the arrays.
 
-        positions: shape (n, 3), float32. triangles: shape (m, 3), integers, indices of positions. colours: shape (m,),
-        uint32, 0xAABBGGRR, or (m, 3), uint8, RGB; else light grey. two_sided: no triangle is culled, and each is lit on the
-        side that is seen. Triangles with NaN or infinity are not drawn. ValueError for an index out of range.
+        positions: shape (n, 3), float32 or float64, to which other types are converted. In float64, a mesh far from 0 keeps
+        its shape: coordinates lose at most 2**-24 of the longest side of its box (Mesh::set_positions in scene.h says how).
+        triangles: shape (m, 3), integers, indices of positions. colours: shape (m,), uint32, 0xAABBGGRR, or (m, 3), uint8,
+        RGB; else light grey. two_sided: no triangle is culled, and each is lit on the side that is seen. Triangles with NaN
+        or infinity are not drawn: Frame.stats counts them. ValueError for an index out of range.
         """
-        return self._native.add_mesh(_array(positions, np.float32), _indices(triangles),
+        return self._native.add_mesh(_positions(positions), _indices(triangles),
                                      None if colours is None else _colours(colours), two_sided)
 
     def add_instance(self, mesh: int, matrix: ArrayLike = IDENTITY) -> int:
@@ -323,7 +354,7 @@ class Scene(_Drawable):
         return self._native.add_instance(mesh, _array(matrix, np.float64))
 
     def set_instance(self, instance: int, matrix: ArrayLike) -> None:
-        """Moves an instance. matrix: affine, shape (4, 4), from the mesh to the world."""
+        """Moves an instance. matrix: affine, shape (4, 4), from the mesh's positions, as they were given, to the world."""
         self._native.set_instance(instance, _array(matrix, np.float64))
 
     def remove_instance(self, instance: int) -> None:
@@ -331,8 +362,8 @@ class Scene(_Drawable):
         self._native.remove_instance(instance)
 
     def set_positions(self, mesh: int, positions: ArrayLike) -> None:
-        """Moves a mesh's vertices, for animation. positions: as many as before, shape (n, 3), float32; they are copied."""
-        self._native.set_positions(mesh, _array(positions, np.float32))
+        """Moves a mesh's vertices, for animation. positions: as many as before, as add_mesh() takes them; they are copied."""
+        self._native.set_positions(mesh, _positions(positions))
 
     def set_light(self, direction: Sequence[float]) -> None:
         """The direction towards the light, in world space: three numbers, finite, and of any length but 0."""
@@ -376,9 +407,11 @@ class Scene(_Drawable):
         """Perspective-correct coordinates of the triangle's point that each pixel of a frame of ids shows.
 
         Returns uv, shape (height, width, 2), and distance along the view direction, shape (height, width). A pixel's value
-        of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0; their error is below
-        2**-25 + 2**-47, that of the distance below 2**-24 + 2**-48 of it. The distance is w in clip space, so a projection
-        with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background: 0 and infinity.
+        of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0. The distance is w in clip space,
+        so a projection with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background:
+        0 and infinity. Errors of u and v are below 2**-25 + 2**-47 + e / 2, that of the distance below 2**-24 + 2**-48 + e of
+        it, where e, usually below 2**-19, is 2**-20 times the largest ratio of a vertex's distance from the camera to its w,
+        and 0 in a stream (barycentrics.h).
         ValueError if the frame shows something else than this scene, seen by this camera, with this culling. If it was drawn
         over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
         """
@@ -417,9 +450,9 @@ class Scene(_Drawable):
         """The pixels that rasterizers which follow Direct3D, Vulkan or WebGPU may draw differently, as `edgewise portable`
         finds them.
 
-        The camera must have a perspective projection and an affine view. bits: of subpixel positions, at least. ulps: error
-        of the viewport transform. guard_band: how far triangles may reach beyond the picture, in px. depth: d16_unorm,
-        d24_unorm or d32_sfloat.
+        The camera must have a perspective projection and an affine view. bits: of subpixel positions, at least; 1 to 8, until
+        the library draws more. ulps: error of the viewport transform. guard_band: how far triangles may reach beyond the
+        picture, in px. depth: d16_unorm, d24_unorm or d32_sfloat.
         """
         return _portable(self._native.portable(*_matrices([camera]), *size, cull, bits, ulps, guard_band, depth, threads))
 
@@ -485,6 +518,11 @@ def draw(positions: ArrayLike, triangles: ArrayLike, camera: Camera | Sequence[C
 
 def _array(values: ArrayLike, dtype: Any) -> NDArray[Any]:
     return np.asarray(values, dtype, order="C")
+
+
+def _positions(positions: ArrayLike) -> NDArray[Any]:
+    array = np.asarray(positions)
+    return _array(array, np.float32 if array.dtype == np.float32 else np.float64)
 
 
 def _matrices(cameras: Sequence[Camera]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
