@@ -1,5 +1,6 @@
 // The C interface (edgewise.h). No exception leaves it.
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <exception>
 #include <glm/gtc/type_ptr.hpp>
@@ -79,24 +80,18 @@ auto& meshes_of(Handle* scene) {
   return *found;
 }
 
-// Makes `to` hold `count` elements that lie `stride` bytes apart; 0: without gaps.
+// `count` elements that lie `stride` bytes apart; 0: without gaps.
 template <typename T, typename Source>
-void copy_in(const Source* first, std::size_t count, std::size_t stride, const char* name,
-             std::vector<T>& to) {
+std::vector<T> copied(const Source* first, std::size_t count, std::size_t stride, const char* name) {
   if (count != 0) given(first, name);
   if (stride != 0 && stride < sizeof(T))
     throw std::invalid_argument(std::string(name) + ": a stride of " + std::to_string(stride) +
                                 " bytes is below " + std::to_string(sizeof(T)));
-  to.resize(count);
+  std::vector<T> to(count);
   const auto* const bytes = reinterpret_cast<const char*>(first);
   const std::size_t step = stride != 0 ? stride : sizeof(T);
   for (std::size_t i = 0; i < count; ++i) std::memcpy(&to[i], bytes + i * step, sizeof(T));
-}
-template <typename T, typename Source>
-std::vector<T> copied(const Source* first, std::size_t count, std::size_t stride, const char* name) {
-  std::vector<T> all;
-  copy_in(first, count, stride, name, all);
-  return all;
+  return to;
 }
 
 // Copies all of `from`, whose size the caller knows.
@@ -130,6 +125,20 @@ FrontendOptions frontend_options(const edgewise_options& options, const edgewise
   return o;
 }
 
+// Point: what a vertex is in `positions`.
+template <typename Point, typename Coordinate>
+void add(edgewise_scene* scene, const edgewise_mesh& m, const Coordinate* positions, size_t* index) {
+  Scene& s = meshes_of(scene);
+  Mesh made{.positions = {},
+            .triangles = copied<glm::uvec3>(m.triangles, m.triangle_count, m.triangle_stride, "triangles"),
+            .colours = {}};
+  set_vertices(made, copied<Point>(positions, m.vertex_count, m.position_stride, "positions"));
+  if (m.colours != nullptr) made.colours.assign(m.colours, m.colours + m.triangle_count);
+  if (m.two_sided != 0) made.flags.assign(m.triangle_count, kTwoSided);
+  const std::size_t added = add_mesh(s, std::move(made));
+  if (index != nullptr) *index = added;
+}
+
 }  // namespace
 
 int edgewise_abi(void) {
@@ -159,25 +168,31 @@ void edgewise_free_scene(edgewise_scene* scene) {
 }
 
 edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* mesh, size_t* index) {
+  return status_of([&] { add<glm::vec3>(scene, given(mesh, "mesh"), mesh->positions, index); });
+}
+
+edgewise_status edgewise_add_mesh_f64(edgewise_scene* scene, const edgewise_mesh* mesh,
+                                      const double* positions, size_t* index) {
   return status_of([&] {
-    Scene& s = meshes_of(scene);
-    const edgewise_mesh& m = given(mesh, "mesh");
-    Mesh made{.positions = copied<glm::vec3>(m.positions, m.vertex_count, m.position_stride, "positions"),
-              .triangles = copied<glm::uvec3>(m.triangles, m.triangle_count, m.triangle_stride, "triangles"),
-              .colours = {}};
-    if (m.colours != nullptr) made.colours.assign(m.colours, m.colours + m.triangle_count);
-    if (m.two_sided != 0) made.flags.assign(m.triangle_count, kTwoSided);
-    const std::size_t added = add_mesh(s, std::move(made));
-    if (index != nullptr) *index = added;
+    if (given(mesh, "mesh").positions != nullptr)
+      throw std::invalid_argument("a mesh with positions in double must not have others");
+    add<glm::dvec3>(scene, *mesh, positions, index);
   });
 }
 
 edgewise_status edgewise_set_positions(edgewise_scene* scene, size_t mesh, const float* positions,
                                        size_t vertex_count, size_t stride) {
   return status_of([&] {
-    set_positions(meshes_of(scene), mesh, vertex_count, [&](std::vector<glm::vec3>& moved) {
-      copy_in(positions, vertex_count, stride, "positions", moved);
-    });
+    set_positions(meshes_of(scene), mesh, vertex_count,
+                  [&] { return copied<glm::vec3>(positions, vertex_count, stride, "positions"); });
+  });
+}
+
+edgewise_status edgewise_set_positions_f64(edgewise_scene* scene, size_t mesh, const double* positions,
+                                           size_t vertex_count, size_t stride) {
+  return status_of([&] {
+    set_positions(meshes_of(scene), mesh, vertex_count,
+                  [&] { return copied<glm::dvec3>(positions, vertex_count, stride, "positions"); });
   });
 }
 
@@ -284,6 +299,12 @@ edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene*
     edgewise_renderer& r = given(renderer, "renderer");
     draw(given(scene, "scene").drawable, r.frontend, frontend_options(o, frame), *r.backend, view_of(frame),
          pass, {.threads = o.threads});
+  });
+}
+
+edgewise_status edgewise_stats_of(const edgewise_renderer* renderer, edgewise_stats* stats) {
+  return status_of([&] {
+    given(stats, "stats") = std::bit_cast<edgewise_stats>(given(renderer, "renderer").frontend.stats());
   });
 }
 

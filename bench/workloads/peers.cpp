@@ -78,7 +78,8 @@ std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
   for (const auto& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     meshes.push_back(ProvokingVertices(mesh).assign(payloads.first(mesh.triangles.size())));
-    const ScreenTransform transform(scene.camera, instance, workload.width(), workload.height());
+    const ScreenTransform transform({scene.camera, workload.width(), workload.height()},
+                                    model_matrix(mesh, instance));
     PeerMesh& peers = meshes.back();
     for (glm::vec3& position : peers.positions) position -= transform.origin;
     for (int i = 0; i < 4; ++i) {
@@ -224,9 +225,12 @@ Framebuffer picture_of_ids(const Workload& workload, std::span<const ScreenTrian
 PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
                                  int subpixel_bits) {
   const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload));
-  const auto mask = lab::portable_pixels(
-      lab::portable_triangles(workload.drawable(), workload.frontend_options({})), ours.width(),
-      ours.height(), {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
+  const auto mask =
+      lab::portable_pixels(lab::portable_triangles(workload.drawable(), workload.frontend_options({})),
+                           ours.width(), ours.height(),
+                           {.subpixel_bits = std::min(subpixel_bits, contract::kSubBits),
+                            .depth = lab::find_depth_format("d32_sfloat")},
+                           2);
   PortableJudgement result;
   std::size_t i = 0;
   for (int y = 0; y < ours.height(); ++y)

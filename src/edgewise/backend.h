@@ -82,9 +82,9 @@ class Backend {
   // reference to its arguments. Requires the ranges of screen_triangle.h, which are not checked. Frames of
   // similar size and content allocate memory only in the first.
   // Throws, before it writes or allocates anything, std::invalid_argument for an invalid frame or execution,
-  // for a scissor of negative size, or for more than kMaxTriangles triangles. Throws std::bad_alloc if memory
-  // runs out, and std::length_error if the tiles' triangle lists exceed 2^32 entries; then the content of the
-  // frame is undefined, and the backend remains usable.
+  // for planes that overlap, for a scissor of negative size, or for more than kMaxTriangles triangles. Throws
+  // std::bad_alloc if memory runs out, and std::length_error if the tiles' triangle lists exceed 2^32
+  // entries; then the content of the frame is undefined, and the backend remains usable.
   void draw(std::span<const ScreenTriangle> triangles, FrameView frame, const RenderPass& pass,
             const Execution& execution);
   // The same for a front end's output. Also throws std::invalid_argument if that was made for a frame of
@@ -120,9 +120,9 @@ class Backend {
 
 // Frontend::run() and Backend::draw() in one call: the same picture and Frontend::stats(). `tiled` draws
 // streams of small triangles faster and with less memory: it does not keep screen triangles that become
-// coverage masks. A stream's triangles are made on the threads of `execution`, not on those of `options`. If
-// clipping adds more than about an eighth to them, they are made twice in every frame.
-// Throws what the two throw, and std::invalid_argument if `options` state another size than `frame` has.
+// coverage masks. A stream's triangles are made on the threads of `execution`, a scene's on those of
+// `options`. If clipping adds more than about an eighth to them, they are made twice in every frame. Throws
+// what the two throw, and std::invalid_argument if `options` state another size than `frame` has.
 void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
           FrameView frame, const RenderPass& pass, const Execution& execution);
 inline void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,

@@ -28,10 +28,15 @@ struct BarycentricsView {
 // perspective-correct coordinates (rule 11): with the values a0, a1, a2 of an attribute at the triangle's
 // vertices, in the order of Mesh::triangles or StreamTriangle::vertex, the pixel's value is
 //   (1 - u - v) a0 + u a1 + v a2
-// u and v are multiples of 2^-24 with an error below contract::kBarycentricError. u, v and 1 - u - v, which
-// is exact in float, are >= 0. `distance` is along the camera's view direction in world units, with a
-// relative error below contract::kDistanceError; with matrices, it is w. In a stream, and in a parallel
+// u and v are multiples of 2^-24. u, v and 1 - u - v, which is exact in float, are >= 0. `distance` is along
+// the camera's view direction in world units; with matrices, it is w. In a stream, and in a parallel
 // projection, where w is the same everywhere, it is the depth in [0, 1].
+//
+// With e, a bound of the relative error of w at the triangle's vertices, the error of u and v is below
+// contract::kBarycentricError + e / 2, and the relative error of the distance (the absolute one of a depth)
+// below contract::kDistanceError + e. In a stream, e is 0. In a scene seen by a Camera, e is kWError D / w,
+// 2^-20 D / w, where D is the vertex's distance from the camera, and w that along the view direction: D / w
+// is 1 to 2 in usual views. Rule 11 has e for matrices, scaled instances and clipped triangles.
 //
 // `ids` is a frame of `drawable` alone, drawn with `options`, where payload is Payload::id. A pixel is
 // background if its depth is contract::kDepthClear; other depths do not count. So if the frame shows several
@@ -42,7 +47,8 @@ struct BarycentricsView {
 // this costs more.
 //
 // Throws std::invalid_argument
-// - for a frame or view that cannot be read or written, for options of another size than the frame or for
+// - for a frame or view that cannot be read or written, or that overlap in memory, for options of another
+// size than the frame or for
 //   another payload than ids, for a camera, an instance's mesh index or matrix, a thread count, a SIMD target
 //   or a number of triangles or a first id that Frontend::run() throws for, and for flags that are neither
 //   empty nor one per triangle. Then nothing has been written.

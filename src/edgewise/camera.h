@@ -59,8 +59,9 @@ CameraMatrices matrices_of(const Camera& camera, double aspect);
 glm::dmat4 perspective_projection(double fov_y, double aspect, double near_z, double far_z);
 
 // A parallel projection from the same view space. It shows left … right, bottom … top, and distances
-// near_z … far_z along the view direction, which may be negative. Throws std::invalid_argument for a value
-// that is not finite and for an empty range.
+// near_z … far_z along the view direction, which may be negative. left > right or bottom > top mirrors the
+// picture. Throws std::invalid_argument for a value that is not finite, for an empty range, and unless near_z
+// < far_z: projection_from() converts reversed depth.
 glm::dmat4 orthographic_projection(double left, double right, double bottom, double top, double near_z,
                                    double far_z);
 

@@ -76,10 +76,18 @@ typedef struct edgewise_mesh {
  * value are allowed: triangles with NaN or infinity are not drawn. Fails if a triangle names a vertex that
  * the mesh lacks. */
 edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* mesh, size_t* index);
+/* The same with positions in double, in place of mesh->positions, which must be null; a position_stride of 0
+ * is 24. If floats would lose the shape of a mesh far from 0, it is kept relative to a point near its centre
+ * (Mesh::set_positions of scene.h), so that coordinates lose at most 2^-24 of the longest side of its box.
+ * Matrices of instances apply to the positions that are given. */
+edgewise_status edgewise_add_mesh_f64(edgewise_scene* scene, const edgewise_mesh* mesh,
+                                      const double* positions, size_t* index);
 /* Moves the vertices of a mesh, as many as it has, in all its instances. `stride`: bytes from vertex to
- * vertex; 0: 12. */
+ * vertex; 0: 12, and 24 in double. */
 edgewise_status edgewise_set_positions(edgewise_scene* scene, size_t mesh, const float* positions,
                                        size_t vertex_count, size_t stride);
+edgewise_status edgewise_set_positions_f64(edgewise_scene* scene, size_t mesh, const double* positions,
+                                           size_t vertex_count, size_t stride);
 
 /* Gives `count` triangles of a mesh, from `first` on, a name, for edgewise_objects(). A name may be given
  * again, and triangles may have several. */
@@ -110,7 +118,8 @@ edgewise_status edgewise_view(const double position[3], float yaw, float pitch, 
 /* x right, y up, looks along -z. fov_y in radians; far_z may be infinite. */
 edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z,
                                      double projection[16]);
-/* The same view space, without perspective. */
+/* The same view space, without perspective. near_z < far_z; left > right or bottom > top mirrors the
+ * picture. */
 edgewise_status edgewise_orthographic(double left, double right, double bottom, double top, double near_z,
                                       double far_z, double projection[16]);
 /* Computer vision: x right, y down, looks along z. `k`: the intrinsics, row by row, in pixels of a width x
@@ -142,7 +151,7 @@ edgewise_status edgewise_new_renderer(const char* backend, edgewise_renderer** r
 void edgewise_free_renderer(edgewise_renderer* renderer);
 
 /* The caller's memory. Row y begins `stride` pixels after row y - 1. Rows that begin on 64-byte boundaries
- * are written fastest. */
+ * are written fastest. A draw fails if depth and payload share a pixel's memory. */
 typedef struct edgewise_frame {
   uint32_t* depth;
   uint32_t* payload; /* colours or ids; null: only depth is drawn */
@@ -176,6 +185,25 @@ edgewise_options edgewise_default_options(void);
 edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene,
                               const edgewise_options* options, edgewise_frame frame);
 
+/* Counts of a draw: triangles = whole_mesh + not_finite + outside + not_in_front + those that become pieces,
+ * and pieces = culled + zero_area + emitted. */
+typedef struct edgewise_stats {
+  uint64_t meshes, meshes_culled; /* instances, and those out of view */
+  uint64_t triangles;
+  uint64_t whole_mesh;   /* dropped with their instance, which is out of view */
+  uint64_t not_finite;   /* dropped: a vertex is NaN or infinite */
+  uint64_t outside;      /* dropped: out of view */
+  uint64_t not_in_front; /* dropped: behind the camera */
+  uint64_t clipped, clipped_near, clipped_far, clipped_guard;
+  uint64_t pieces;    /* triangles after clipping */
+  uint64_t culled;    /* pieces dropped for their facing */
+  uint64_t zero_area; /* pieces dropped: no area once rounded to 1/256 px */
+  uint64_t emitted;   /* pieces drawn */
+} edgewise_stats;
+
+/* The counts of the renderer's last edgewise_draw(); undefined after one that failed. */
+edgewise_status edgewise_stats_of(const edgewise_renderer* renderer, edgewise_stats* stats);
+
 /* What a frame of ids shows. All pixels of the frame count, so after a draw with a scissor, pass that part of
  * it. */
 /* The ids of visible triangles, ascending: writes the first `capacity`, and to `count` how many there are. */
@@ -206,12 +234,15 @@ edgewise_status edgewise_objects(const edgewise_scene* scene,
 edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double low[3], const double high[3],
                                      edgewise_frame depth, int* is_visible);
 /* Perspective-correct barycentric coordinates of the second and third vertex, u and v, by pixel; 0 on
- * background. u, v and 1 - u - v are >= 0, with errors below 2^-25 + 2^-47. `distance`, unless null, is w in
- * clip space, which usual projections make the distance along the view direction, with a relative error below
- * 2^-24 + 2^-48; in streams and parallel projections, it is the depth in 0 ... 1; infinite on background.
- * Strides are in floats, from row to row. `ids` must show this scene alone, drawn with these options, which
- * must not be null and must ask for ids; the scissor does not count. If it shows several, pass a copy of its
- * depths in which the pixels of the others are EDGEWISE_DEPTH_CLEAR. */
+ * background. u, v and 1 - u - v are >= 0. `distance`, unless null, is w in clip space, which usual
+ * projections make the distance along the view direction; in streams and parallel projections, it is the
+ * depth in 0 ... 1; infinite on background. Errors of u and v are below 2^-25 + 2^-47 + e / 2, the relative
+ * one of the distance is below 2^-24 + 2^-48 + e: barycentrics.h says what e, the error of w, is. In streams
+ * it is 0, and usually it is below 2^-19.
+ * Planes must overlap neither each other nor the frame. Strides are in floats, from row to row. `ids` must
+ * show this scene alone, drawn with these options, which must not be null and must ask for ids; the scissor
+ * does not count. If it shows several, pass a copy of its depths in which the pixels of the others are
+ * EDGEWISE_DEPTH_CLEAR. */
 edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride);

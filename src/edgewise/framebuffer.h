@@ -23,10 +23,10 @@ struct ConstFrameView {
 };
 
 // A frame for a backend to draw into, in any memory. Row y starts at depth + y * stride and
-// payload + y * stride; row 0 is the top. The memory must outlive the draw. The frame needs no clear: by
-// default a draw writes all its pixels (RenderPass in backend.h), and never one beyond `width`. Rows that
-// start on 64-byte boundaries are written fastest. Two threads must not draw into one frame at once, not even
-// into different parts of it.
+// payload + y * stride; row 0 is the top; no two pixels may share memory. The memory must outlive the draw.
+// The frame needs no clear: by default a draw writes all its pixels (RenderPass in backend.h), and never one
+// beyond `width`. Rows that start on 64-byte boundaries are written fastest. Two threads must not draw into
+// one frame at once, not even into different parts of it.
 struct FrameView {
   std::uint32_t* depth;    // contract units (rule 6), smaller is nearer; contract::kDepthClear: background
   std::uint32_t* payload;  // the nearest triangle's payload, or the background; null: only depth is drawn

@@ -126,7 +126,7 @@ class Frontend {
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,
   // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view,
-  // - a mesh whose clusters are not one per kClusterTriangles triangles,
+  // - a mesh whose clusters are not one per kClusterTriangles triangles, or whose origin is not finite,
   // - more than kMaxTriangles triangles (before memory is allocated for them), or ids that reach it,
   // - a SIMD target that this machine cannot run.
   // The object may be used again after an exception. Boxes of clusters are not checked: if positions or

@@ -16,7 +16,7 @@
 namespace EDGEWISE_PUBLIC edgewise {
 
 struct ObjOptions {
-  // Leaves the mesh near the origin: the instance's translation stays 0. For coordinates of a survey, say.
+  // Leaves the mesh near 0: its origin stays 0. For coordinates of a survey, say.
   bool recentre = false;
 };
 
@@ -38,10 +38,9 @@ struct ObjReport {
 //   OBJ file, or in the current one if that is read from a descriptor. Their paths may have backslashes.
 // - Objects (o) and groups (g) become Mesh::parts, for objects() in visible.h. A group's name is a word, an
 //   object's or a material's the rest of the line. A '#' belongs to the name, as in "Paint #1".
-// - Positions are read in double. If they are far from the origin, more than 4 times the longest side of the
-//   box around them, the mesh holds them relative to an offset near the box's centre, and the instance's
-//   translation is that offset: so float keeps what the file says. `options` may ask for the offset without
-//   the translation.
+// - Positions are read in double. If they are far from 0, more than 4 times the longest side of the box
+//   around them, the mesh holds them relative to an offset near the box's centre, which is Mesh::origin: so
+//   float keeps what the file says. `options` may ask for the offset without the origin.
 // Throws std::runtime_error, with the file's name and the fault, if the file is missing, malformed, without
 // faces or larger than kMaxObjBytes, or if an index is out of range.
 Scene read_obj(const std::filesystem::path& path, const ObjOptions& options = {},

@@ -37,7 +37,7 @@ inline constexpr std::uint8_t kSameFace = 2;  // belongs to the same face as the
 // may have fewer.
 inline constexpr std::size_t kClusterTriangles = 256;
 struct MeshCluster {
-  glm::vec3 low, high;  // bounding box in model space; infinite if a vertex is not finite
+  glm::vec3 low, high;  // bounding box of `positions`; infinite if a vertex is not finite
 };
 
 // Triangles first … first + count - 1 of a mesh, which have a name: of an object or a group of an OBJ file,
@@ -48,12 +48,12 @@ struct MeshPart {
 };
 
 struct Mesh {
-  std::vector<glm::vec3> positions;    // model space
+  std::vector<glm::vec3> positions;    // model space, less `origin`
   std::vector<glm::uvec3> triangles;   // indices into positions; the side seen clockwise is the front
   std::vector<std::uint32_t> colours;  // one per triangle
   std::vector<std::uint8_t> flags{};   // one set of flags per triangle; empty if no triangle has any
   // For meshes with faces of more than three vertices: the face_normal() of each triangle's face, one per
-  // triangle. Empty if each triangle's own plane gives its normal. Renew them when positions change. The
+  // triangle. Empty if each triangle's own plane gives its normal. renew_normals() when positions change. The
   // length does not matter; length 0 means no normal, and ambient light only.
   std::vector<glm::vec3> normals{};
   // For speed only: clusters_of() this mesh, or empty. Renew or clear them when positions or triangles
@@ -61,6 +61,19 @@ struct Mesh {
   std::vector<MeshCluster> clusters{};
   // For objects() only. Parts may overlap, and several may have one name.
   std::vector<MeshPart> parts{};
+  // Vertex i lies at origin + positions[i]. A mesh far from 0 keeps its shape so, which floats alone would
+  // round away. Finite.
+  glm::dvec3 origin{0.0};
+
+  // Sets `positions` and `origin` from points in double; set `triangles` before. The origin is 0 if floats
+  // hold all points that triangles name (all points, if there are no triangles), or if none of their
+  // coordinates exceeds 4 times the longest side of the box around them: then points are rounded to float.
+  // Otherwise it is a point near the box's centre, and positions are off by at most 2^-24 of that side. NaN,
+  // infinity and points out of float's range do not count, and become positions that are not finite. Clusters
+  // and normals must be renewed.
+  void set_positions(std::span<const glm::dvec3> points);
+  // Makes `normals` anew, unless it is empty, after a change of positions.
+  void renew_normals();
 
   bool has_flag(std::size_t triangle, std::uint8_t flag) const {
     return !flags.empty() && (flags[triangle] & flag) != 0;
@@ -84,8 +97,8 @@ glm::vec3 face_normal(std::span<const glm::vec3> vertices);
 // clusters that are out of view. Empty for meshes of fewer than 65,536 triangles, and if a vertex is missing.
 std::vector<MeshCluster> clusters_of(const Mesh& mesh);
 
-// A mesh placed in the world: scaled, then rotated about an axis through its origin, then translated; or by
-// any affine matrix instead. A scale with one or three negative components mirrors the mesh, as does a matrix
+// A mesh placed in the world: scaled, then rotated about an axis through 0, then translated; or by any affine
+// matrix instead. A scale with one or three negative components mirrors the mesh, as does a matrix
 // with a negative determinant. Only the winding decides which side is the front, and mirroring reverses it.
 // So Cull::back then shows the inside of a closed mesh, and the light falls on that side too. To draw the
 // outside, use a mesh whose triangles list their vertices in reverse order.
@@ -130,9 +143,9 @@ struct Bounds {
 Bounds bounds_of(const Scene& scene);
 
 // Moves and scales the instances so that the bounding box is centred on the origin and its longest side is 2.
-// Does nothing if that side is 0 or there is no box. Throws what bounds_of() throws, and
-// std::invalid_argument if the longest side is below about 10^-30 or above 10^38, or if the centre is more
-// than 2^35 times that side away from the origin.
+// Makes the meshes' origins 0. Does nothing if that side is 0 or there is no box. Throws what bounds_of()
+// throws, and std::invalid_argument if the longest side is below about 10^-30 or above 10^38, or if the
+// centre is more than 2^35 times that side away from the origin.
 void fit(Scene& scene);
 
 // Places the camera in front of the bounding box, a little to the right and above, so that an image whose
@@ -140,7 +153,7 @@ void fit(Scene& scene);
 // and far planes around the box. Removes the scene's matrices. Throws what bounds_of() throws.
 void frame_camera(Scene& scene, double aspect = 1.0);
 
-// The matrix from an instance's model space to world space.
-glm::dmat4 model_matrix(const Instance& instance);
+// The matrix from the positions of an instance's mesh, which are relative to its origin, to world space.
+glm::dmat4 model_matrix(const Mesh& mesh, const Instance& instance);
 
 }  // namespace edgewise

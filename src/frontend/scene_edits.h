@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <utility>
+#include <vector>
 
 #include "edgewise/scene.h"
 #include "frontend/mesh_clusters.h"
@@ -22,13 +24,22 @@ std::size_t add_instance(Scene& scene, const Instance& instance);
 void set_instance(Scene& scene, std::size_t instance, const glm::dmat4& matrix);
 void remove_instance(Scene& scene, std::size_t instance);
 
-// Calls write(positions) for the positions of a mesh, if there are so many.
-template <typename Write>
-void set_positions(Scene& scene, std::size_t mesh, std::size_t vertices, Write&& write) {
+// Sets the vertices of a mesh, whose triangles are there. Doubles keep a point of their own (Mesh::origin).
+inline void set_vertices(Mesh& mesh, std::vector<glm::vec3> points) {
+  mesh.positions = std::move(points), mesh.origin = glm::dvec3(0.0);
+}
+inline void set_vertices(Mesh& mesh, const std::vector<glm::dvec3>& points) {
+  mesh.set_positions(points);
+}
+
+// Moves the vertices of a mesh of the scene to points(), if it has `count` of them.
+template <typename Points>
+void set_positions(Scene& scene, std::size_t mesh, std::size_t count, Points&& points) {
   check_index("mesh", mesh, scene.meshes.size());
   Mesh& moved = scene.meshes[mesh];
-  check_count("vertices", vertices, moved.positions.size());
-  write(moved.positions);
+  check_count("vertices", count, moved.positions.size());
+  set_vertices(moved, points());
+  moved.renew_normals();
   renew_clusters(moved);
 }
 

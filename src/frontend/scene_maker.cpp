@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/finite.h"
+
 namespace edgewise {
 
 namespace {
@@ -19,6 +21,7 @@ void check(const Mesh& mesh) {
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.triangles.size())
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
                                 std::to_string(mesh.normals.size()) + " normals");
+  if (!is_finite(mesh.origin)) throw std::invalid_argument("a mesh's origin is not finite");
   if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
                                 " clusters instead of " + std::to_string(cluster_count(mesh)));
@@ -58,7 +61,7 @@ void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options,
 
 void SceneMaker::start_instance(Worker& w, std::size_t instance) {
   const Mesh& mesh = mesh_of(instance);
-  const glm::dmat4 model = model_matrix(scene_->instances[instance]);
+  const glm::dmat4 model = model_matrix(mesh, scene_->instances[instance]);
   const std::size_t first = first_ids_[instance];
   w.instance = instance;
   w.task.emplace(MeshTask{.options = options_,

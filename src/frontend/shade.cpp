@@ -202,7 +202,7 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   std::vector<ScreenTriangle> triangles;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const glm::dmat4 model = model_matrix(instance);
+    const glm::dmat4 model = model_matrix(mesh, instance);
     const ShadeTask task{mesh, cofactor_matrix(model), to_light, 0};
     for (std::size_t i = 0; i < mesh.triangles.size();) {
       triangles.clear();

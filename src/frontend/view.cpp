@@ -8,6 +8,7 @@
 
 #include "core/finite.h"
 #include "core/float_state.h"
+#include "core/number_text.h"
 #include "core/trigonometry.h"
 
 namespace edgewise {
@@ -20,7 +21,8 @@ void check(const Camera& camera) {
   if (!(camera.fov_y > 0.0f && camera.fov_y < std::numbers::pi_v<float>))
     throw std::invalid_argument("the camera's field of view must be between 0 and 180 degrees");
   if (!(camera.near_z > 0.0f && camera.near_z < camera.far_z && std::isfinite(camera.far_z)))
-    throw std::invalid_argument("the camera needs 0 < near < far");
+    throw std::invalid_argument("the camera needs 0 < near < far, not " + number_text(camera.near_z) +
+                                " and " + number_text(camera.far_z));
 }
 
 bool are_orthogonal(const glm::dmat3& axes) {
@@ -170,9 +172,6 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
   z = {to_clip[0].z, to_clip[1].z, to_clip[2].z, corner.z * least_w};
   if (glm::dvec3(inverse_w) == glm::dvec3(0.0)) axis = glm::dvec3(to_world[2]) * least_w;
 }
-
-ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px)
-    : ScreenTransform(View(camera, width_px, height_px), model_matrix(instance)) {}
 
 ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model) : has_z(view.has_z) {
   const glm::dmat3 axes(model);

@@ -48,10 +48,8 @@ struct View {
 // Model space → pixels times w, and w, the distance along the view direction (rule 10). A point in the view,
 // which is the camera's position if z is w, is subtracted from a vertex before anything else is rounded.
 struct ScreenTransform {
-  // `model` is an instance's matrix.
+  // `model` is an instance's model_matrix().
   ScreenTransform(const View& view, const glm::dmat4& model);
-  // Throws as View does.
-  ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px);
 
   // In double, for the vertices of triangles that must be clipped.
   ClipVertex operator()(glm::vec3 position) const;

@@ -60,7 +60,8 @@ const Drawable& HiddenFaces::drop(const Scene& scene) {
     left.instances[i] = instance;
     left.instances[i].mesh = i;
     Faces& faces = faces_[instance.mesh];
-    faces.scene.view.forward = in_mesh_space(instance, line_of_sight(scene.camera));
+    faces.scene.view.forward =
+        in_mesh_space(glm::dmat3(model_matrix(mesh, instance)), line_of_sight(scene.camera));
     method_->classify(faces.scene, faces.front);
 
     Mesh& kept = left.meshes[i];

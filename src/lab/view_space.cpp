@@ -7,6 +7,7 @@
 #include "core/trigonometry.h"
 #include "frontend/shade.h"
 #include "frontend/view.h"
+#include "scene/origin.h"
 
 namespace edgewise::lab {
 
@@ -20,7 +21,7 @@ ClippingScene as_one_mesh(const Scene& scene, Size size, const glm::dmat3& turn,
   Mesh& all = seen.scene.meshes.front();
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const glm::dmat4 model = model_matrix(instance);
+    const glm::dmat4 model = model_matrix(mesh, instance);
     const glm::dmat3 turn_normal = turn * cofactor_matrix(model);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       const glm::uvec3 triangle = mesh.triangles[i];
@@ -77,13 +78,14 @@ Drawable with_camera(const Drawable& drawable, Size size) {
     throw std::invalid_argument("this needs an affine view and a perspective projection (camera.h)");
   constexpr double kFarthest = 1e30;  // in place of infinity
   Scene seen = *scene;
+  fold_origins(seen);
   seen.matrices.reset();
   seen.camera = {.fov_y = std::numbers::pi_v<float> / 2.0f,
                  .near_z = static_cast<float>(view.volume.near_z),
                  .far_z = static_cast<float>(std::min(view.volume.far_z, kFarthest))};
   const glm::dmat3 to_camera = glm::inverse(pixels_of(seen.camera, size.width, size.height)) * view.pixels;
   for (Instance& instance : seen.instances) {
-    const glm::dmat4 model = model_matrix(instance);
+    const glm::dmat4 model = model_matrix(seen.meshes[instance.mesh], instance);
     instance.matrix.emplace(to_camera * glm::dmat3(model));
     (*instance.matrix)[3] = glm::dvec4(to_camera * (glm::dvec3(model[3]) - view.origin), 1.0);
   }
@@ -95,8 +97,7 @@ glm::vec3 line_of_sight(const Camera& camera) {
 }
 
 // A matrix M maps a face's normal n to det M · M^-T · n, so its product with d is n · (det M · M^-1 · d).
-glm::vec3 in_mesh_space(const Instance& instance, glm::dvec3 direction) {
-  const glm::dmat3 model(model_matrix(instance));
+glm::vec3 in_mesh_space(const glm::dmat3& model, glm::dvec3 direction) {
   return glm::vec3(glm::normalize(glm::determinant(model) * (glm::inverse(model) * direction)));
 }
 

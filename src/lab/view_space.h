@@ -26,7 +26,7 @@ Drawable with_camera(const Drawable& drawable, Size size);
 
 glm::vec3 line_of_sight(const Camera& camera);
 // The direction in the space of an instance's mesh: its product with a normal there has the sign that the
-// world-space ones have, also if the instance scales or mirrors. The instance must have an invertible matrix.
-glm::vec3 in_mesh_space(const Instance& instance, glm::dvec3 direction);
+// world-space ones have, also if the instance scales or mirrors. `model`, of its matrix, has an inverse.
+glm::vec3 in_mesh_space(const glm::dmat3& model, glm::dvec3 direction);
 
 }  // namespace edgewise::lab

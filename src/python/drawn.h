@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -34,6 +35,7 @@
 namespace edgewise::python {
 
 using Path = std::filesystem::path;
+using Counts = std::array<std::uint64_t, sizeof(FrontendStats) / sizeof(std::uint64_t)>;
 
 inline Cull cull_of(std::string_view name) {
   return find_named("culling mode", name, cull_modes(), [](Cull cull) { return name_of(cull); });
@@ -121,10 +123,11 @@ class Drawn {
     }
   }
 
-  void draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
-            const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull, int threads,
-            bool shade, const std::string& backend, std::uint32_t background, bool clear,
-            const std::optional<std::array<int, 4>>& scissor, const py::object& progress) {
+  // Returns the counts of edgewise.Stats, summed over the views.
+  Counts draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
+              const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull, int threads,
+              bool shade, const std::string& backend, std::uint32_t background, bool clear,
+              const std::optional<std::array<int, 4>>& scissor, const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, true);
     FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
@@ -133,12 +136,15 @@ class Drawn {
     options.shade = shade;
     RenderPass pass{.background = background, .clear = clear};
     if (scissor) pass.scissor = {(*scissor)[0], (*scissor)[1], (*scissor)[2], (*scissor)[3]};
+    FrontendStats stats;
     const auto draw_view = [&](const Drawable& drawable, std::size_t i) {
       auto& made = drawer_->backends[backend];
       if (made == nullptr) made = find_backend(backend).make();
       edgewise::draw(drawable, drawer_->frontend, options, *made, frames[i], pass, {.threads = threads});
+      stats += drawer_->frontend.stats();
     };
     for_each_view(cameras, frames.views, draw_view, progress);
+    return std::bit_cast<Counts>(stats);
   }
 
   py::tuple barycentrics(const Matrix& views, const Matrix& projections,

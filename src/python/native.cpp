@@ -55,15 +55,28 @@ Words pixels_per(Drawn& self, const std::optional<py::array>& payload, const py:
   return Words(frames.shape({static_cast<py::ssize_t>(kinds)}), all.data());
 }
 
-std::size_t add_arrays(Drawn& self, const Floats& positions, const Words& triangles,
+// A vertex of an array of float or double.
+template <typename Coordinate>
+using Point = glm::vec<3, Coordinate>;
+
+template <typename Coordinate>
+std::size_t add_arrays(Drawn& self, const Array<Coordinate>& positions, const Words& triangles,
                        const std::optional<Words>& colours, bool two_sided) {
   check(positions, "positions", {-1, 3}), check(triangles, "triangles", {-1, 3});
   if (colours) check(*colours, "colours", {triangles.shape(0)});
-  Mesh mesh{
-      .positions = copied<glm::vec3>(positions), .triangles = copied<glm::uvec3>(triangles), .colours = {}};
+  Mesh mesh{.positions = {}, .triangles = copied<glm::uvec3>(triangles), .colours = {}};
+  set_vertices(mesh, copied<Point<Coordinate>>(positions));
   if (colours) mesh.colours = copied<std::uint32_t>(*colours);
   if (two_sided) mesh.flags.assign(mesh.triangles.size(), kTwoSided);
   return self.use_scene([&](Scene& scene) { return add_mesh(scene, std::move(mesh)); });
+}
+
+template <typename Coordinate>
+void move_vertices(Drawn& self, std::size_t mesh, const Array<Coordinate>& positions) {
+  check(positions, "positions", {-1, 3});
+  auto moved = copied<Point<Coordinate>>(positions);
+  self.use_scene(
+      [&](Scene& scene) { set_positions(scene, mesh, moved.size(), [&] { return std::move(moved); }); });
 }
 
 }  // namespace
@@ -130,7 +143,8 @@ PYBIND11_MODULE(_native, m) {
 
   py::class_<Drawn> drawn_class(m, "Drawable");
   drawn_class.def(py::init([] { return drawn(Scene{}); }))
-      .def("add_mesh", add_arrays)
+      .def("add_mesh", add_arrays<float>)
+      .def("add_mesh", add_arrays<double>)
       .def("add_instance",
            [](Drawn& self, std::size_t mesh, const Matrix& rows) {
              const Instance instance{.mesh = mesh, .matrix = matrix_of(rows, "matrix")};
@@ -145,14 +159,8 @@ PYBIND11_MODULE(_native, m) {
            [](Drawn& self, std::size_t index) {
              self.use_scene([&](Scene& scene) { remove_instance(scene, index); });
            })
-      .def("set_positions",
-           [](Drawn& self, std::size_t mesh, const Floats& positions) {
-             check(positions, "positions", {-1, 3});
-             auto moved = copied<glm::vec3>(positions);
-             self.use_scene([&](Scene& scene) {
-               set_positions(scene, mesh, moved.size(), [&](auto& of_mesh) { of_mesh.swap(moved); });
-             });
-           })
+      .def("set_positions", move_vertices<float>)
+      .def("set_positions", move_vertices<double>)
       .def("set_light",
            [](Drawn& self, double x, double y, double z) {
              self.use_scene([&](Scene& scene) { scene.to_light = checked_light({x, y, z}); });

@@ -23,6 +23,8 @@ void visit_fields(MeshType& mesh, Visit&& visit) {
   visit("colours", mesh.colours);
   visit("flags", mesh.flags);
   visit("normals", mesh.normals);
+  visit("origin", mesh.origin);
+  visit("parts", mesh.parts);
 }
 
 template <typename T>
@@ -33,6 +35,15 @@ template <typename T>
 py::object to_python(const std::vector<glm::vec<3, T>>& values) {
   return Array<T>({static_cast<py::ssize_t>(values.size()), py::ssize_t{3}},
                   reinterpret_cast<const T*>(values.data()));
+}
+
+py::object to_python(const glm::dvec3& v) {
+  return Matrix(3, glm::value_ptr(v));
+}
+py::object to_python(const std::vector<MeshPart>& parts) {
+  py::list all;
+  for (const MeshPart& part : parts) all.append(py::make_tuple(py::bytes(part.name), part.first, part.count));
+  return all;
 }
 
 template <typename T>
@@ -46,6 +57,17 @@ void from_python(const char* name, const py::object& from, std::vector<glm::vec<
   const auto array = from.cast<Array<T>>();
   check(array, name, {-1, 3});
   values = copied<glm::vec<3, T>>(array);
+}
+
+void from_python(const char* name, const py::object& from, glm::dvec3& v) {
+  const auto array = from.cast<Matrix>();
+  check(array, name, {3});
+  v = glm::make_vec3(array.data());
+}
+void from_python(const char*, const py::object& from, std::vector<MeshPart>& parts) {
+  for (const auto& [name, first, count] :
+       from.cast<std::vector<std::tuple<std::string, std::size_t, std::size_t>>>())
+    parts.push_back({name, first, count});
 }
 
 py::list meshes_of(const Scene& scene) {
@@ -62,7 +84,7 @@ using Placed = std::vector<std::pair<std::size_t, glm::dmat4>>;
 Placed placed_of(const Scene& scene) {
   Placed placed;
   for (const Instance& instance : scene.instances)
-    placed.emplace_back(instance.mesh, model_matrix(instance));  // draws use this matrix, too
+    placed.emplace_back(instance.mesh, model_matrix({}, instance));  // draws use this matrix, too
   return placed;
 }
 py::list as_list(const Placed& placed) {

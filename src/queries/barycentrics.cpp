@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/float_state.h"
+#include "core/overlap.h"
 #include "core/parallel.h"
 #include "edgewise/contract.h"
 #include "edgewise/visible.h"
@@ -139,10 +140,11 @@ class Triangles {
       const std::size_t index = instance_of(all_.first_ids_, id);
       const Scene& scene = *all_.scene_;
       const Instance& instance = scene.instances[index];
+      const Mesh& mesh = scene.meshes[instance.mesh];
       task_.emplace(MeshTask{.options = all_.options_,
-                             .mesh = scene.meshes[instance.mesh],
+                             .mesh = mesh,
                              .view = all_.view_->volume,
-                             .to_screen = {*all_.view_, model_matrix(instance)},
+                             .to_screen = {*all_.view_, model_matrix(mesh, instance)},
                              .depth = all_.view_->depth,
                              .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
     }
@@ -210,6 +212,14 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
   if ((out.uv != nullptr && out.uv_stride < 2 * ids.width) ||
       (out.distance != nullptr && out.distance_stride < ids.width))
     throw std::invalid_argument("barycentric coordinates need a stride of at least a row's floats");
+  const Rows depth{ids.depth, ids.width, ids.height, ids.stride},
+      payload{ids.payload, ids.width, ids.height, ids.stride},
+      uv{out.uv, 2 * ids.width, ids.height, out.uv_stride},
+      distance{out.distance, ids.width, ids.height, out.distance_stride};
+  if (overlap(uv, distance) || overlap(uv, depth) || overlap(uv, payload) || overlap(distance, depth) ||
+      overlap(distance, payload))
+    throw std::invalid_argument(
+        "barycentric coordinates need planes that overlap neither the frame nor each other");
 }
 
 }  // namespace

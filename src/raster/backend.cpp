@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/float_state.h"
+#include "core/overlap.h"
 #include "edgewise/contract.h"
 #include "raster/checks.h"
 
@@ -27,6 +28,11 @@ Execution checked(const FrameView& frame, const Execution& execution) {
 }
 
 FramePart checked(const FrameView& frame, const RenderPass& pass) {
+  const auto rows_of = [&](const std::uint32_t* plane) {
+    return Rows{plane, frame.width, frame.height, frame.stride};
+  };
+  if (overlap(rows_of(frame.depth), rows_of(frame.payload)))
+    throw std::invalid_argument("the frame's depth and payload overlap in memory");
   const PixelRect& scissor = pass.scissor;
   if (scissor.width < 0 || scissor.height < 0)
     throw std::invalid_argument("scissor of " + std::to_string(scissor.width) + " x " +

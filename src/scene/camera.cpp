@@ -7,6 +7,7 @@
 
 #include "core/finite.h"
 #include "core/float_state.h"
+#include "core/number_text.h"
 #include "core/trigonometry.h"
 
 namespace edgewise {
@@ -19,7 +20,8 @@ struct DepthTerms {
 };
 DepthTerms depth_terms(double near_z, double far_z) {
   if (!(near_z > 0.0 && near_z < far_z && std::isfinite(near_z)))
-    throw std::invalid_argument("a perspective projection needs 0 < near < far");
+    throw std::invalid_argument("a perspective projection needs 0 < near < far, not " + number_text(near_z) +
+                                " and " + number_text(far_z));
   const double a = std::isinf(far_z) ? 1.0 : far_z / (far_z - near_z);
   return {a, -a * near_z};
 }
@@ -49,6 +51,9 @@ glm::dmat4 perspective_projection(double fov_y, double aspect, double near_z, do
 glm::dmat4 orthographic_projection(double left, double right, double bottom, double top, double near_z,
                                    double far_z) {
   const DefaultFloatState state;
+  if (!(near_z < far_z))
+    throw std::invalid_argument("an orthographic projection needs near < far, not " + number_text(near_z) +
+                                " and " + number_text(far_z));
   const glm::dvec3 low(left, bottom, near_z), high(right, top, far_z), size = high - low;
   if (!is_finite(low) || !is_finite(high) || !is_finite(1.0 / size))
     throw std::invalid_argument("an orthographic projection needs three finite ranges that are not empty");

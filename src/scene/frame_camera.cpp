@@ -1,13 +1,13 @@
 // Where a scene lies, and a camera that sees all of it. In double: a scene may lie far from the origin.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "core/finite.h"
 #include "core/float_state.h"
 #include "core/trigonometry.h"
 #include "edgewise/scene.h"
+#include "scene/origin.h"
 
 namespace edgewise {
 
@@ -21,7 +21,7 @@ template <typename Visit>
 void for_each_corner(const Scene& scene, const Visit& visit) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const glm::dmat4 model = model_matrix(instance);
+    const glm::dmat4 model = model_matrix(mesh, instance);
     for (const glm::uvec3& triangle : mesh.triangles)
       for (int k = 0; k < 3; ++k) {
         if (triangle[k] >= mesh.positions.size()) continue;  // Frontend::run() reports it
@@ -35,12 +35,8 @@ void for_each_corner(const Scene& scene, const Visit& visit) {
 
 Bounds bounds_of(const Scene& scene) {
   const DefaultFloatState state;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Bounds box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
-  for_each_corner(scene, [&](const glm::dvec3& p) {
-    box.low = glm::min(box.low, p);
-    box.high = glm::max(box.high, p);
-  });
+  Bounds box = no_box();
+  for_each_corner(scene, [&](const glm::dvec3& p) { extend(box, p); });
   return box;
 }
 
@@ -79,6 +75,7 @@ void fit(Scene& scene) {
   if (!(factor >= 0x1p-126 && factor <= 0x1p100 && std::max({moved.x, moved.y, moved.z}) <= 0x1p36))
     throw std::invalid_argument(
         "too small, too large, or too far from the origin to be scaled to a size of 2");
+  fold_origins(scene);  // now: the sum of a moved instance and a distant origin would round the shape away
   for (auto& instance : scene.instances) {
     if (instance.matrix) {
       for (int i = 0; i < 4; ++i) {

@@ -19,6 +19,7 @@
 #include "core/input_file.h"
 #include "core/parse_number.h"
 #include "edgewise/limits.h"
+#include "scene/origin.h"
 #include "scene/polygon.h"
 
 namespace edgewise {
@@ -28,10 +29,6 @@ namespace {
 constexpr std::uint32_t kGrey = rgb(200, 200, 200);
 constexpr std::string_view kBlank = " \t\v\f";
 constexpr double kMostFloat = std::numeric_limits<float>::max();
-
-// A box is far from the origin if a coordinate exceeds this multiple of its longest side. Rounding such
-// coordinates to float would cost more than two bits of the mesh's shape.
-constexpr double kFar = 4.0;
 
 std::string at_line(std::size_t line, const std::string& reason) {
   return "line " + std::to_string(line) + ": " + reason;
@@ -209,6 +206,7 @@ class Reader {
   Mesh make_mesh(bool recentre, glm::dvec3& offset) {
     offset = choose_offset(recentre);
     Mesh mesh;
+    if (!recentre) mesh.origin = offset;
     mesh.positions.reserve(positions_.size());
     // A vertex that no face names may lie out of float's range then.
     for (const glm::dvec3& p : positions_)
@@ -408,20 +406,11 @@ class Reader {
               "a face names vertex " + std::to_string(corners_[i] + 1) + " of " + std::to_string(vertices)));
   }
 
-  // The centre of the box around all vertices of faces, rounded to a multiple of the largest power of two
-  // that is at most the box's longest side: subtracting it leaves coordinates of about that length.
+  // Of all vertices of faces.
   glm::dvec3 choose_offset(bool recentre) const {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const std::int64_t i : corners_) {
-      low = glm::min(low, positions_[static_cast<std::size_t>(i)]);
-      high = glm::max(high, positions_[static_cast<std::size_t>(i)]);
-    }
-    const auto largest = [](glm::dvec3 v) { return std::max({v.x, v.y, v.z}); };
-    const double longest = largest(high - low);
-    if (!recentre && largest(glm::max(glm::abs(low), glm::abs(high))) <= kFar * longest)
-      return glm::dvec3(0.0);
-    const double step = longest > 0.0 ? std::ldexp(1.0, std::ilogb(longest)) : 1.0;
-    return glm::round((low + high) * (0.5 / step)) * step;
+    Bounds box = no_box();
+    for (const std::int64_t i : corners_) extend(box, positions_[static_cast<std::size_t>(i)]);
+    return recentre || is_far(box) ? rounded_centre(box) : glm::dvec3(0.0);
   }
 
   std::uint32_t colour_of(std::size_t face, const std::vector<std::uint32_t>& polygon) const {
@@ -453,7 +442,6 @@ Scene read_obj(const std::filesystem::path& path, const ObjOptions& options, Obj
   }
   for (std::string& warning : out.warnings) warning = file_error(path, warning).what();
   scene.instances.emplace_back();
-  if (!options.recentre) scene.instances[0].translation = out.offset;
   frame_camera(scene);
   return scene;
 }

@@ -193,6 +193,7 @@ void join_cells(Scene& scene) {
       quads.add_quad({upper.x, upper.y, lower.y, upper.z}, mesh.colours[i]);
     }
     quads.clusters = clusters_of(quads);
+    quads.origin = mesh.origin;
     mesh = std::move(quads);
   }
 }

@@ -120,10 +120,10 @@ void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label
   if (vertex_count(scene) > kMostLabels) return;
   const glm::dmat4 to_screen = screen_matrix(scene.camera, strip.width, strip.height);
   for (const Instance& instance : scene.instances) {
-    const glm::dmat4 to_pixels = to_screen * model_matrix(instance);
-    const auto& positions = scene.meshes[instance.mesh].positions;
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      add_label(to_pixels, positions[i], strip, std::to_string(i), rgb(255, 255, 255), labels);
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const glm::dmat4 to_pixels = to_screen * model_matrix(mesh, instance);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      add_label(to_pixels, mesh.positions[i], strip, std::to_string(i), rgb(255, 255, 255), labels);
   }
 }
 

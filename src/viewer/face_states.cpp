@@ -42,7 +42,7 @@ std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleS
   std::size_t id = 0;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes.at(scene.instances[i].mesh);
-    const glm::dmat4 model = model_matrix(scene.instances[i]);
+    const glm::dmat4 model = model_matrix(mesh, scene.instances[i]);
     for (std::size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
       TriangleState state = states[id];
       do {

@@ -7,6 +7,7 @@
 
 #include "core/trigonometry.h"
 #include "frontend/view.h"
+#include "scene/origin.h"
 
 namespace edgewise::viewer {
 
@@ -23,8 +24,9 @@ glm::quat quaternion(glm::vec3 axis, float angle) {
 }  // namespace
 
 World::World(Drawable drawable) : drawable_(std::move(drawable)) {
-  const Scene* const seen = scene();
+  auto* const seen = std::get_if<Scene>(&drawable_);
   if (seen == nullptr) return;
+  fold_origins(*seen);  // for turn(), whose instances turn about points of their own
   loaded_ = seen->instances;
   home_ = seen->camera;
   const auto [low, high] = bounds_of(*seen);

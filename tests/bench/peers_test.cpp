@@ -94,7 +94,8 @@ TEST(PeerScene, GivesEachTriangleItsOwnLastVertex) {
     for (std::size_t m = 0; m < made.meshes.size(); ++m) {
       const Mesh& mesh = given.meshes[given.instances[m].mesh];
       const PeerMesh& peer = made.meshes[m];
-      const ScreenTransform seen(given.camera, given.instances[m], made.width, made.height);
+      const ScreenTransform seen({given.camera, made.width, made.height},
+                                 model_matrix(mesh, given.instances[m]));
       const auto relative = [&](std::uint32_t vertex) { return mesh.positions[vertex] - seen.origin; };
       ASSERT_EQ(peer.indices.size(), 3 * mesh.triangles.size());
       EXPECT_LE(peer.positions.size(), mesh.positions.size() + mesh.triangles.size());

@@ -30,7 +30,7 @@ int main(int count, char** arguments) try {
   const auto backend = find_backend("tiled").make();
   draw(scene, frontend, {.width = width, .height = height}, *backend, frame, rgb(30, 30, 40), {});
   write_image("picture.png", to_image(frame));
-  const FrontendOptions ids{.width = width, .height = height, .payload = Payload::id};
+  const FrontendOptions ids{.width = width, .height = height, .payload = Payload::id, .threads = 2};
   draw(scene, frontend, ids, *backend, frame, 0xFFFFFFFF, {.threads = 2});
   constexpr int middle = height / 2 * stride + width / 2;
   std::printf("triangle %u, depth %.6f\n", payload[middle], contract::depth01(depth[middle]));

@@ -326,7 +326,11 @@ TEST(FrontendKernels, VerticesOnPlanesMatchTheScalarFlags) {
       for (const float y : borders(w, kHeight))
         for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
     std::vector<Vertex> vertices(mesh.positions.size());
-    MeshTask job{options, mesh, {kWidth, kHeight, 0.5, 0.9}, {{}, {}, kWidth, kHeight}, ViewDepth(0.5, 0.9)};
+    MeshTask job{options,
+                 mesh,
+                 {kWidth, kHeight, 0.5, 0.9},
+                 {{Camera{}, kWidth, kHeight}, glm::dmat4(1.0)},
+                 ViewDepth(0.5, 0.9)};
     job.to_screen.origin = glm::vec3(0.0f);
     job.to_screen.rounded = glm::mat4x3(1.0f);
     job.to_screen.rounded[3] = {0.0f, 0.0f, w};
@@ -357,7 +361,7 @@ TEST(FrontendKernels, VerticesWithZOnPlanesMatchTheScalarFlags) {
       for (const float y : borders(w, kHeight))
         for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
     std::vector<Vertex> vertices(mesh.positions.size());
-    MeshTask job{options, mesh, kView, {{}, {}, kWidth, kHeight}, ViewDepth(0.5, 0.9)};
+    MeshTask job{options, mesh, kView, {{Camera{}, kWidth, kHeight}, glm::dmat4(1.0)}, ViewDepth(0.5, 0.9)};
     job.to_screen.origin = glm::vec3(0.0f);
     job.to_screen.rounded = glm::mat4x3(0.0f);
     job.to_screen.rounded[0].x = job.to_screen.rounded[1].y = 1.0f;

@@ -307,7 +307,7 @@ TEST(Frontend, ShadesScaledInstancesLikeScaledMeshes) {
                           .axis = {random.uniform(-1, 1), random.uniform(-1, 1), 1.0f},
                           .angle = random.uniform(0, 6),
                           .translation = {0, 0, -6}};
-    for (auto& c : corners) c = glm::vec3(model_matrix(scene.instances[0]) * glm::dvec4(c, 1.0));
+    for (auto& c : corners) c = glm::vec3(model_matrix({}, scene.instances[0]) * glm::dvec4(c, 1.0));
     Scene stretched = loose(corners);
     scene.to_light = stretched.to_light = {0.3f, 0.5f, 0.8f};
     const auto red = [](const Scene& s) { return static_cast<double>(run(s).triangles.at(0).payload & 255); };

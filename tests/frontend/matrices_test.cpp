@@ -252,7 +252,8 @@ TEST(Matrices, KeepTheirPrecisionFarFromTheOrigin) {
     expect_nearly_same(near, far, "by the instance");
     near.matrices->projection = projection(10);
     far = near;
-    far.matrices->view = moved_view(glm::dvec3(model_matrix(far.instances[0]) * glm::dvec4(away_in_mesh, 0)));
+    far.matrices->view =
+        moved_view(glm::dvec3(model_matrix({}, far.instances[0]) * glm::dvec4(away_in_mesh, 0)));
     for (glm::vec3& p : far.meshes[0].positions) p += glm::vec3(away_in_mesh);
     expect_nearly_same(near, far, "in the mesh", 2, 1024);
   }
@@ -325,7 +326,7 @@ Scene knot_of(const Instance& instance) {
 TEST(InstanceMatrices, EqualScaleRotationAndTranslation) {
   const Instance instance{
       .scale = {-0.5, 1.5, 1}, .axis = {1, 2, 3}, .angle = 0.7f, .translation = {0.25, -0.5, 0.125}};
-  Scene parts = knot_of(instance), matrix = knot_of({.matrix = model_matrix(instance)});
+  Scene parts = knot_of(instance), matrix = knot_of({.matrix = model_matrix({}, instance)});
   EXPECT_EQ(bounds_of(parts).low, bounds_of(matrix).low);
   EXPECT_EQ(bounds_of(parts).high, bounds_of(matrix).high);
   for (const bool by_matrices : {false, true}) {

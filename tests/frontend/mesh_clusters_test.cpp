@@ -225,7 +225,7 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
 
 TEST(MeshClusters, ExcludeNoBoxThatOverflowsOrIsNotFinite) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const ScreenTransform to_screen({}, {}, 320, 200);  // looks along -z
+  const ScreenTransform to_screen({Camera{}, 320, 200}, glm::dmat4(1.0));  // looks along -z
   const auto excludes = [](const ScreenTransform& m, glm::vec3 low, glm::vec3 high) {
     return ViewSides(m, view_volume({}, 320, 200)).exclude({low, high});
   };
@@ -234,7 +234,7 @@ TEST(MeshClusters, ExcludeNoBoxThatOverflowsOrIsNotFinite) {
   EXPECT_FALSE(excludes(to_screen, {-90, -90, -1}, {-0.2f, -0.2f, -1})) << "a corner is in view";
   EXPECT_FALSE(excludes(to_screen, glm::vec3(-kInfinity), glm::vec3(kInfinity)));
   EXPECT_FALSE(excludes(to_screen, glm::vec3(std::numeric_limits<float>::quiet_NaN()), {1, 1, 9}));
-  const ScreenTransform huge({}, {.scale = glm::dvec3(1e37)}, 320, 200);
+  const ScreenTransform huge({Camera{}, 320, 200}, model_matrix({}, {.scale = glm::dvec3(1e37)}));
   EXPECT_FALSE(excludes(huge, {-1, -1, 5}, {1, 1, 9}));
 }
 

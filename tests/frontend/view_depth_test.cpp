@@ -90,7 +90,7 @@ TEST(ViewDepth, BeyondThePlanesItIsThatOfThePlane) {
 
 TEST(ViewDepth, IsTheSameInEveryKernel) {
   const FrontendOptions options;
-  ScreenTransform w_is_x({}, {}, 1, 1);
+  ScreenTransform w_is_x({Camera{}, 1, 1}, glm::dmat4(1.0));
   w_is_x.rounded = glm::mat4x3(0.0f);
   w_is_x.rounded[0] = {0.0f, 0.0f, 1.0f};
   for (const Planes& p : planes()) {
@@ -135,7 +135,7 @@ TEST(ViewDepth, OfAClippedVertexIsThatOfItsDistanceToo) {
   for (int trial = 0; trial < 2000; ++trial) {
     const Scene scene = scene_to_clip(random);
     const Camera& camera = scene.camera;
-    const ScreenTransform to_screen(camera, {}, kSide, kSide);
+    const ScreenTransform to_screen({camera, kSide, kSide}, glm::dmat4(1.0));
     const ViewVolume view = view_volume(camera, kSide, kSide);
     ClipVertex corner[3];
     std::uint16_t sides = 0;

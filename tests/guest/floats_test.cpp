@@ -142,7 +142,8 @@ TEST(FloatMode, ChangesNoSceneAndNoCamera) {
       frame_camera(scene, 1.7);
       fit(scene);
       found.push_back(bits(scene.camera));
-      for (const Instance& instance : scene.instances) found.push_back(bits(model_matrix(instance)));
+      for (const Instance& instance : scene.instances)
+        found.push_back(bits(model_matrix(scene.meshes[instance.mesh], instance)));
     }
     Mesh quad{
         .positions = {{0.1f, 0, 0}, {1, 0.3f, 0}, {1, 1, 0.7f}, {0, 1, 0}}, .triangles = {}, .colours = {}};

@@ -460,7 +460,7 @@ TEST(ObjFile, FarFromTheOriginMillimetresAreKept) {
       EXPECT_LT(glm::length(mesh.positions[i]), 0.004f);
     }
     EXPECT_TRUE(std::isfinite(mesh.positions[5].x)) << "not the face's";
-    EXPECT_EQ(read.scene.instances[0].translation, recentre ? glm::dvec3(0.0) : offset);
+    EXPECT_EQ(mesh.origin, recentre ? glm::dvec3(0.0) : offset);
   }
 }
 

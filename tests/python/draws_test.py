@@ -1,4 +1,5 @@
 """Identities of draws, and what they take and give."""
+import pickle
 import threading
 import time
 
@@ -47,6 +48,65 @@ def test_one_call_is_a_scene():
     assert same(frame, edgewise.Scene(positions, indices).draw(CAMERA, SIZE, ids=True))
     assert ids.dtype == depth.dtype == np.uint32 and ids.shape == depth.shape == (HEIGHT, WIDTH)
     assert ((ids == edgewise.BACKGROUND_ID) == (depth == edgewise.DEPTH_CLEAR)).all()
+
+
+@pytest.mark.parametrize("place, size", [((-2487002.881739342, -4684683.676570751, 3529638.9835389843), 0.017),
+                                         ((512345.678, 5403210.123, 431.987), 300.0)])
+def test_a_mesh_of_doubles_far_from_0_is_drawn_as_one_near_0(place, size):
+    near, indices, colours = triangles()
+    points = size / 2 * near.astype(np.float64)
+    far = np.array(place) + points
+    near_scene = edgewise.Scene((far - far[0]).astype(np.float32), indices, colours=colours)
+    eye = size * np.array([0.2, 0.3, 2])
+
+    def camera(at):
+        return edgewise.Camera(edgewise.look_at(at + eye, at), edgewise.perspective(0.8, ASPECT, size / 100, 10 * size))
+
+    def almost_same(scene, at):
+        ids, near_ids = (s.draw(camera(p), SIZE, ids=True).payload for s, p in ((scene, at), (near_scene, np.zeros(3))))
+        assert (near_ids != edgewise.BACKGROUND_ID).sum() > 1000
+        return (ids != near_ids).mean() < 0.002  # by the rounding of the camera and the points
+
+    scene = edgewise.Scene(far, indices, colours=colours)
+    assert almost_same(scene, far[0])
+    assert not almost_same(edgewise.Scene(far.astype(np.float32), indices), far[0])
+    for corner, expected in zip(scene.bounds(), (far.min(0), far.max(0))):
+        assert np.abs(corner - expected).max() < 1e-6 * size
+    move = np.eye(4)
+    move[:3, 3] = -far[0]
+    scene.set_instance(0, move)
+    assert almost_same(scene, np.zeros(3))
+    scene.remove_instance(0)
+    scene.set_positions(0, far + 1)
+    scene.add_instance(0)
+    assert almost_same(scene, far[0] + 1)
+
+
+def test_other_numbers_are_the_same_as_floats():
+    positions, indices, _ = triangles()
+    expected = edgewise.Scene(positions, indices).draw(CAMERA, SIZE)
+    for other in (positions.astype(np.float64), positions.tolist(), positions.astype(">f4"), positions.astype(np.longdouble)):
+        assert same(edgewise.Scene(other, indices).draw(CAMERA, SIZE), expected)
+    whole = np.round(positions * 4).astype(np.int64)
+    assert same(edgewise.Scene(whole, indices).draw(CAMERA, SIZE), edgewise.Scene(whole.astype(np.float32), indices).draw(CAMERA, SIZE))
+
+
+def test_stats_count_what_is_dropped():
+    positions, indices, _ = triangles()
+    positions[0], positions[7] = np.nan, np.inf
+    drawn = edgewise.Scene(positions, indices)
+    frame = drawn.draw(CAMERA, SIZE)
+    assert frame.stats.not_finite == 2 and frame.stats.triangles == 60 and frame.stats.meshes == 1
+    assert drawn.draw(CAMERAS, SIZE, ids=True).stats.triangles == 3 * 60
+    onto = drawn.draw(CAMERA, SIZE, onto=frame, cull="both")
+    assert onto.payload is frame.payload and onto.stats.culled > 0 and frame.stats.culled == 0
+    assert stream().draw().stats.emitted > 0
+    assert edgewise.Frame(*frame).stats is None
+    restored = pickle.loads(pickle.dumps(frame))
+    assert same(restored, frame) and restored.stats == frame.stats
+    huge = positions.astype(np.float64)
+    huge[3] = 1e39
+    assert edgewise.Scene(huge, indices).draw(CAMERA, SIZE).stats.not_finite == 3
 
 
 def test_draws_add_up():

@@ -1,4 +1,6 @@
 """Bad arguments are ValueError with the library's text, and change nothing."""
+import math
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,8 @@ CASES = {
     "fov 0": ("field of view", lambda: edgewise.perspective(0, 1, 1)),
     "near 0": ("near", lambda: edgewise.perspective(1, 1, 0)),
     "empty range": ("range|left", lambda: edgewise.orthographic(1, 1, 0, 1, 0, 1)),
+    "orthographic near beyond far": ("near < far, not 10 and 0.5", lambda: edgewise.orthographic(-1, 1, -1, 1, 10, 0.5)),
+    "orthographic NaN": ("near < far, not nan", lambda: edgewise.orthographic(-1, 1, -1, 1, math.nan, 0.5)),
     "k of 2 rows": ("k must", lambda: edgewise.intrinsics(IDENTITY[:2, :3], 4, 4, 1)),
     "projection of 3 rows": ("projection", lambda: edgewise.projection_from(IDENTITY[:3])),
     "view of 3 rows": ("views", lambda: scene().draw(edgewise.Camera(IDENTITY[:3], IDENTITY), SIZE)),
@@ -101,6 +105,7 @@ CASES = {
     "vertices of 2 coordinates": ("vertices", lambda: edgewise.Stream(np.zeros((4, 3, 2)), SIZE)),
     "bits 0": ("bits", lambda: stream().portable(bits=0)),
     "ulps -1": ("ulps", lambda: stream().portable(ulps=-1)),
+    "bits 9": ("1 to 8: the library draws no more", lambda: stream().portable(bits=9)),
     "depth format": ("depth format", lambda: stream().portable(depth="d25")),
     "portable threads 0": ("threads", lambda: stream().portable(threads=0)),
     "portable of a parallel projection": ("perspective", lambda: scene().portable(edgewise.Camera(

@@ -69,6 +69,7 @@ struct Shown {
 // A vertex of a clipped polygon, with exact weights.
 struct ExactVertex {
   ClipVertex at;
+  double true_w, w_error;  // w before it is rounded to float, and rule 11's bound of e / (1 - e)
   std::array<mpq_class, 3> weights;
   Vertex snapped{};
 };
@@ -80,7 +81,7 @@ class Truth {
   explicit Truth(const Shown& shown) : shown_(shown) {
     if (const auto* scene = std::get_if<Scene>(&shown.drawable)) {
       first_ids_ = first_ids(*scene);
-      view_ = view_volume(scene->camera, shown.options.width, shown.options.height);
+      view_ = View(*scene, shown.options.width, shown.options.height).volume;
     } else {
       view_ = {double(shown.options.width), double(shown.options.height), 0.0, 1.0};
     }
@@ -89,6 +90,8 @@ class Truth {
   struct Values {
     mpq_class u, v, distance;
     bool clipped;
+    mpq_class true_u, true_v, true_distance;  // with the true w
+    double w_error;
   };
   std::optional<Values> at(int x, int y) {
     const std::uint32_t id = shown_.id(x, y);
@@ -101,7 +104,8 @@ class Truth {
       const lab::SnappedTruth coverage(t);
       const int hidden = cull_ == Cull::back ? -1 : cull_ == Cull::front ? 1 : 0;
       if (cull_ == Cull::both || coverage.facing() == hidden || !coverage.covers(x, y)) continue;
-      mpq_class sum = 0, z = 0, u = 0, v = 0;
+      mpq_class sum = 0, z = 0, u = 0, v = 0, true_sum = 0, true_z = 0, true_u = 0, true_v = 0;
+      double w_error = 0.0;
       for (std::size_t i = 0; i < 3; ++i) {
         const Vertex &a = piece[(i + 1) % 3].snapped, &b = piece[(i + 2) % 3].snapped;
         const mpq_class sx = 256 * x + 128, sy = 256 * y + 128;
@@ -109,8 +113,14 @@ class Truth {
         const mpq_class weight = edge * coverage.facing() / mpq_class(piece[i].at.w);
         sum += weight, z += weight * mpq_class(piece[i].at.z);
         u += weight * piece[i].weights[1], v += weight * piece[i].weights[2];
+        const mpq_class true_weight = weight * mpq_class(piece[i].at.w) / mpq_class(piece[i].true_w);
+        true_sum += true_weight;
+        true_z += true_weight * mpq_class(first_ids_.empty() ? piece[i].at.z : piece[i].true_w);
+        true_u += true_weight * piece[i].weights[1], true_v += true_weight * piece[i].weights[2];
+        w_error = std::max(w_error, piece[i].w_error);
       }
-      return Values{u / sum, v / sum, z / sum, clipped_};
+      return Values{u / sum,           v / sum,           z / sum,           clipped_,
+                    true_u / true_sum, true_v / true_sum, true_z / true_sum, w_error};
     }
     return {};
   }
@@ -126,7 +136,12 @@ class Truth {
     for (int k = 0; k < 3; ++k) {
       rounded[k].at = exact[k].at = corner(id, k, rounded[k]);
       rounded[k].weights[static_cast<std::size_t>(k)] = exact[k].weights[static_cast<std::size_t>(k)] = 1;
-      if (const auto* scene = std::get_if<Scene>(&shown_.drawable)) exact[k].at = exact_corner(*scene, id, k);
+      rounded[k].true_w = rounded[k].at.w, rounded[k].w_error = 0.0;
+      if (const auto* scene = std::get_if<Scene>(&shown_.drawable)) {
+        exact[k].at = exact_corner(*scene, id, k);
+        rounded[k].true_w = exact[k].at.w;
+        rounded[k].w_error = w_error(to_screen(*scene, id), position(*scene, id, k), exact[k].at.w);
+      }
       sides |= rounded[k].snapped.outside & kMustClip;
     }
     clipped_ = sides != 0;
@@ -153,6 +168,14 @@ class Truth {
     out.snapped.outside |= outside_of(v, view_);
     return v;
   }
+  // Infinite beyond the condition of rules 10 and 11.
+  static double w_error(const ScreenTransform& to_screen, glm::vec3 position, double w) {
+    const double distance = glm::distance(glm::dvec3(position), glm::dvec3(to_screen.origin)),
+                 length = glm::length(
+                     glm::dvec3(to_screen.exact[0].z, to_screen.exact[1].z, to_screen.exact[2].z));
+    if (glm::length(glm::dvec3(to_screen.origin)) > 0x1p24 * distance) return double{kInfinity};
+    return contract::kWError * length * distance / w;
+  }
   ClipVertex exact_corner(const Scene& scene, std::uint32_t id, int k) {
     return to_screen(scene, id)(position(scene, id, k));
   }
@@ -164,7 +187,8 @@ class Truth {
   ScreenTransform to_screen(const Scene& scene, std::uint32_t id) {
     const Instance& instance = scene.instances[instance_of(id)];
     if (scene.meshes[instance.mesh].has_flag(id - first_ids_[instance_of(id)], kTwoSided)) cull_ = Cull::none;
-    return {scene.camera, instance, shown_.options.width, shown_.options.height};
+    return {{scene, shown_.options.width, shown_.options.height},
+            model_matrix(scene.meshes[instance.mesh], instance)};
   }
   glm::vec3 position(const Scene& scene, std::uint32_t id, int k) const {
     const Mesh& mesh = scene.meshes[scene.instances[instance_of(id)].mesh];
@@ -208,6 +232,7 @@ class Truth {
         const auto between = [&](double from, double to) { return from + t * (to - from); };
         cut.at = {between(a->at.x, b->at.x), between(a->at.y, b->at.y), between(a->at.z, b->at.z),
                   between(a->at.w, b->at.w)};
+        cut.true_w = cut.at.w, cut.w_error = 0.0;
         for (std::size_t k = 0; k < 3; ++k)
           cut.weights[k] = (1 - mpq_class(t)) * a->weights[k] + mpq_class(t) * b->weights[k];
         kept.push_back(cut);
@@ -245,6 +270,7 @@ double error_of(float value, const mpq_class& exact) {
 
 struct Counts {
   int pixels = 0, clipped = 0, tiny = 0;  // tiny: u is positive but rounds to 0
+  double most_by_w = 0.0;                 // the largest error of u by that of w, over its bound
 };
 
 // Compares every pixel with the truth.
@@ -266,6 +292,15 @@ void expect_rule(const Shown& shown, const std::string& what, Counts& counts) {
     ASSERT_LT(error_of(distance, exact->distance),
               contract::kDistanceError * (scene ? exact->distance.get_d() : 1.0))
         << where();
+    ASSERT_LT(error_of(u, exact->true_u), contract::kBarycentricError + exact->w_error / 2) << where();
+    ASSERT_LT(error_of(v, exact->true_v), contract::kBarycentricError + exact->w_error / 2) << where();
+    ASSERT_LT(error_of(distance, exact->true_distance),
+              (contract::kDistanceError + exact->w_error) * (scene ? exact->true_distance.get_d() : 1.0))
+        << where();
+    if (exact->w_error > 0.0) {
+      const double by_w = mpq_class(abs(mpq_class(exact->u - exact->true_u))).get_d();
+      counts.most_by_w = std::max(counts.most_by_w, by_w / (exact->w_error / 2));
+    }
     ASSERT_GE(u, 0.0f) << where();
     ASSERT_GE(v, 0.0f) << where();
     ASSERT_LE(u + v, 1.0f) << where();
@@ -342,6 +377,39 @@ TEST(Barycentrics, AreWithinTheContractsErrorAtExtremeDepths) {
   EXPECT_GT(counts.tiny, 0);
 }
 
+// Triangles of any shape and place in the view, whose w are up to 2^12 times as large as others', seen by
+// cameras up to 2^20 sizes away from the mesh's origin, also by matrices.
+TEST(Barycentrics, AreWithinTheErrorOfWForManyCameras) {
+  Counts counts;
+  Random random(29);
+  for (int trial = 0; trial < (testing::full_size() ? 2000 : 150); ++trial) {
+    Scene scene;
+    Camera& camera = scene.camera;
+    camera.fov_y = random.uniform(0.02f, 3.0f);
+    camera.yaw = random.uniform(-3, 3), camera.pitch = random.uniform(-1.5f, 1.5f);
+    camera.near_z = 0.01f, camera.far_z = 1e5f;
+    const double away = std::ldexp(1.0, testing::between(random, -4, 20));
+    for (int i = 0; i < 3; ++i) camera.position[i] = away * double{random.uniform(-1, 1)};
+    const glm::dmat3 to_world = glm::transpose(to_camera_frame(camera));
+    const double up = std::tan(double{camera.fov_y} / 2);
+    Mesh& mesh = scene.meshes.emplace_back();
+    for (unsigned i = 0; i < 24; ++i) {
+      const double w = std::ldexp(1.0, testing::between(random, -2, 10)) * double{random.uniform(1, 2)};
+      const glm::dvec3 seen(w * up * double{random.uniform(-1.2f, 1.2f)},
+                            w * up * double{random.uniform(-1.2f, 1.2f)}, -w);
+      mesh.positions.emplace_back(camera.position + to_world * seen);
+      if (i % 3 == 0) mesh.triangles.emplace_back(i, i + 1, i + 2), mesh.colours.push_back(0);
+    }
+    scene.instances.emplace_back();
+    if (trial % 2 == 1) scene.matrices = matrices_of(camera, 1.0);
+    expect_rule(Shown(scene, {.width = 40, .height = 40, .cull = Cull::none}), std::to_string(trial), counts);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(counts.pixels, 50'000);
+  EXPECT_GT(counts.most_by_w, 0.05)
+      << "of the bound: the cases are hard enough to find a bound that is much too small";
+}
+
 TEST(Barycentrics, AreTheSameOnEveryTargetAndThreadCount) {
   for (const auto& family : randomized::scene_families()) {
     Random random(7);
@@ -401,7 +469,7 @@ TEST(Barycentrics, InterpolatedPositionsProjectToThePixel) {
         const Mesh& mesh = scene->meshes[instance.mesh];
         const glm::uvec3 corners = mesh.triangles[id - first[i]];
         const double u = planes.uv[2 * pixel], v = planes.uv[2 * pixel + 1];
-        const glm::dmat4 model = model_matrix(instance);
+        const glm::dmat4 model = model_matrix(mesh, instance);
         glm::dvec3 seen[3];  // from the camera
         double size = 0, reach = 0;
         for (int k = 0; k < 3; ++k) {
@@ -484,14 +552,16 @@ TEST(Barycentrics, RejectsWhatDoesNotFit) {
             "barycentric coordinates need a stride of at least a row's floats");
   EXPECT_EQ(message([&](Call& c) { scene(c).instances[0].mesh = 1; }), "an instance names mesh 1 of 1");
   EXPECT_EQ(message([&](Call& c) { scene(c).meshes[0].flags = {0}; }), "a mesh has 2 triangles and 1 flags");
-  EXPECT_EQ(message([&](Call& c) { scene(c).camera.near_z = 0; }), "the camera needs 0 < near < far");
+  EXPECT_EQ(message([&](Call& c) { scene(c).camera.near_z = 0; }),
+            "the camera needs 0 < near < far, not 0 and 100");
   EXPECT_EQ(std::count(uv.begin(), uv.end(), -7.0f), 80 * 30) << "written before an error";
   EXPECT_EQ(std::count(distance.begin(), distance.end(), -7.0f), 40 * 30) << "written before an error";
 
   // Found at the first pixel, whichever thread is first.
   std::string first;
   shown.for_each_pixel([&](int x, int y, std::size_t) {
-    if (first.empty() && shown.has(x, y)) first = "(" + std::to_string(x) + ", " + std::to_string(y) + ")";
+    if (first.empty() && shown.has(x, y))
+      first = std::string("(") + std::to_string(x) + ", " + std::to_string(y) + ")";
   });
   for (const int threads : {1, 3}) {
     const auto on_threads = [&](auto&& change) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -156,6 +157,76 @@ TEST(CInterface, DrawsStreamsAndFramedScenes) {
   EXPECT_EQ(edgewise_frame_scene(both.c, 1.4), EDGEWISE_OK);
   frame_camera(both.scene, 1.4);
   expect(both.c, both.scene);
+}
+
+TEST(CInterface, KeepsPositionsInDouble) {
+  const double at[] = {-2'487'002.881739342, -4'684'683.676570751, 3'529'638.9835389843};
+  // Vertices 32 bytes apart.
+  const double positions[] = {at[0],         at[1], at[2], 9, at[0],         at[1] + 0.017, at[2] + 0.004, 9,
+                              at[0] + 0.013, at[1], at[2], 9, at[0] + 0.013, at[1] + 0.017, at[2],         9};
+  const std::uint32_t triangles[] = {0, 1, 2, 1, 3, 2};
+  edgewise_mesh mesh{};
+  mesh.vertex_count = 4, mesh.position_stride = 32, mesh.triangles = triangles, mesh.triangle_count = 2;
+  Both both;
+  std::size_t index = 0;
+  ASSERT_EQ(edgewise_add_mesh_f64(both.c, &mesh, positions, &index), EDGEWISE_OK) << edgewise_error();
+  EXPECT_EQ(index, 1u);
+  EXPECT_EQ(edgewise_remove_instance(both.c, 1), EDGEWISE_OK);
+  EXPECT_EQ(edgewise_remove_instance(both.c, 0), EDGEWISE_OK);
+  EXPECT_EQ(edgewise_add_instance(both.c, 1, nullptr, nullptr), EDGEWISE_OK);
+  Mesh& expected = both.scene.meshes.emplace_back();
+  expected.triangles = {{0, 1, 2}, {1, 3, 2}}, expected.colours = {rgb(200, 200, 200), rgb(200, 200, 200)};
+  both.scene.instances = {Instance{.mesh = 1}};
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 4; ++i) points.push_back(glm::make_vec3(positions + 4 * i));
+  glm::dmat4 view(1.0);
+  view[3] = glm::dvec4(-(points[0] + glm::dvec3(0.006, 0.008, 0.04)), 1.0);
+  both.set_camera(view, perspective_projection(0.6, 1.4, 0.001, 8));
+  const Renderer renderer("tiled");
+  const auto expect_drawn = [&] {
+    expected.set_positions(points);
+    Planes actual, drawn;
+    EXPECT_EQ(edgewise_draw(renderer.c, both.c, nullptr, actual.c()), EDGEWISE_OK) << edgewise_error();
+    Frontend frontend;
+    draw(both.scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
+         *find_backend("naive").make(), drawn.view(), 0xFF000000, {});
+    EXPECT_EQ(actual, drawn);
+    EXPECT_EQ(frontend.stats().emitted, 2u);
+    return drawn;
+  };
+  const Planes before = expect_drawn();
+  for (glm::dvec3& point : points) point += glm::dvec3(0.001, 0.002, 0);
+  EXPECT_EQ(edgewise_set_positions_f64(both.c, 1, &points[0].x, 4, 0), EDGEWISE_OK) << edgewise_error();
+  EXPECT_NE(expect_drawn(), before);
+  EXPECT_EQ(edgewise_set_positions_f64(both.c, 1, &points[0].x, 3, 0), EDGEWISE_INVALID_ARGUMENT);
+  EXPECT_EQ(edgewise_set_positions_f64(both.c, 1, &points[0].x, 4, 12), EDGEWISE_INVALID_ARGUMENT);
+  EXPECT_STREQ(edgewise_error(), "positions: a stride of 12 bytes is below 24");
+  EXPECT_EQ(edgewise_add_mesh_f64(both.c, &mesh, nullptr, nullptr), EDGEWISE_INVALID_ARGUMENT);
+  const float floats[12] = {};
+  mesh.positions = floats;
+  EXPECT_EQ(edgewise_add_mesh_f64(both.c, &mesh, positions, nullptr), EDGEWISE_INVALID_ARGUMENT);
+}
+
+TEST(CInterface, CountsWhatItDraws) {
+  Both both;
+  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
+  std::vector<glm::vec3>& positions = both.scene.meshes[0].positions;
+  positions[3].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(edgewise_set_positions(both.c, 0, &positions[0].x, 4, 0), EDGEWISE_OK);
+  const Renderer renderer("tiled");
+  Planes frame;
+  EXPECT_EQ(edgewise_draw(renderer.c, both.c, nullptr, frame.c()), EDGEWISE_OK);
+  edgewise_stats c;
+  ASSERT_EQ(edgewise_stats_of(renderer.c, &c), EDGEWISE_OK);
+  Frontend frontend;
+  frontend.run(both.scene, {.width = kWidth, .height = kHeight, .cull = Cull::none});
+  const FrontendStats made{c.meshes,        c.meshes_culled, c.triangles, c.whole_mesh,   c.not_finite,
+                           c.outside,       c.not_in_front,  c.clipped,   c.clipped_near, c.clipped_far,
+                           c.clipped_guard, c.pieces,        c.culled,    c.zero_area,    c.emitted};
+  EXPECT_EQ(made, frontend.stats());
+  EXPECT_EQ(c.triangles, 6u);
+  EXPECT_EQ(c.not_finite, 4u);
+  EXPECT_EQ(edgewise_stats_of(renderer.c, nullptr), EDGEWISE_INVALID_ARGUMENT);
 }
 
 TEST(CInterface, TellsWhatIsSeen) {
@@ -338,6 +409,10 @@ TEST(CInterface, TellsErrorsAndChangesNothing) {
   fails(edgewise_draw(nullptr, both.c, nullptr, frame.c()), "renderer is null");
   fails(edgewise_draw(renderer.c, nullptr, nullptr, frame.c()), "scene is null");
   fails(edgewise_draw(renderer.c, both.c, nullptr, {nullptr, nullptr, kWidth, kHeight, kWidth}), "frame of");
+  fails(edgewise_draw(renderer.c, both.c, nullptr,
+                      {frame.depth.data(), frame.depth.data(), kWidth, kHeight, kStride}),
+        "overlap");
+  fails(edgewise_orthographic(-1, 1, -1, 1, 10, 0.5, std::array<double, 16>().data()), "not 10 and 0.5");
   fails(edgewise_add_instance(both.c, 1, nullptr, nullptr), "mesh 1 of 1");
   fails(edgewise_set_instance(both.c, 2, glm::value_ptr(kMatrix)), "instance 2 of 2");
   fails(edgewise_set_instance(both.c, 1, nullptr), "matrix is null");

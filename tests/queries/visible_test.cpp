@@ -200,7 +200,8 @@ TEST_F(VisibleBox, RejectsBadArguments) {
             }),
             "frame of 200 x 200 px, stride 200, cannot be read");
   scene_.camera.near_z = 0;
-  EXPECT_EQ(message_of([&] { visible(box, scene_, frame_); }), "the camera needs 0 < near < far");
+  EXPECT_EQ(message_of([&] { visible(box, scene_, frame_); }),
+            "the camera needs 0 < near < far, not 0 and 100");
 }
 
 // The faces of a box.

@@ -144,11 +144,20 @@ TEST(CameraMatrices, HelpersRefuseInvalidValues) {
   for (const double aspect : {0.0, -1.0, kInfinity, std::nan("")})
     EXPECT_EQ(perspective(1, aspect, 1, 2), "an image's aspect must be positive");
   for (const double near_z : {0.0, -1.0, 2.0, kInfinity, std::nan("")})
-    EXPECT_EQ(perspective(1, 1, near_z, 2), "a perspective projection needs 0 < near < far");
+    EXPECT_TRUE(
+        perspective(1, 1, near_z, 2).starts_with("a perspective projection needs 0 < near < far, not "));
+  EXPECT_TRUE(perspective(1, 1, 0.1, 0.05).ends_with(", not 0.1 and 0.05"));
   EXPECT_NE(perspective(1, 1, 1, std::nan("")), "");
   const char* const kRanges = "an orthographic projection needs three finite ranges that are not empty";
   EXPECT_EQ(message_of([] { orthographic_projection(1, 1, 0, 1, 0, 1); }), kRanges);
   EXPECT_EQ(message_of([] { orthographic_projection(0, 1, 0, 1, 0, kInfinity); }), kRanges);
+  for (const double near_z : {10.0, 1e300, 0.5, kInfinity, std::nan("")})
+    EXPECT_TRUE(message_of([&] {
+                  orthographic_projection(-1, 1, -1, 1, near_z, 0.5);
+                }).starts_with("an orthographic projection needs near < far, not "));
+  EXPECT_TRUE(
+      message_of([] { orthographic_projection(-1, 1, -1, 1, 10, 0.5); }).ends_with(", not 10 and 0.5"));
+  EXPECT_EQ(message_of([] { orthographic_projection(1, -1, 1, -1, -0.5, 10); }), "") << "mirrors";
   const auto intrinsics = [](const glm::dmat3& k, int width, double first_centre) {
     return message_of([&] { intrinsics_projection(k, width, 10, first_centre, 1, 2); });
   };

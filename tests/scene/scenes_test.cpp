@@ -238,7 +238,7 @@ TEST(Fit, CentresAndScalesTheLongestSideToTwo) {
   scene.instances[0].translation = {100, -20, 7};
   fit(scene);
   glm::vec3 low(1e9f), high(-1e9f);
-  const glm::mat4 model = model_matrix(scene.instances[0]);
+  const glm::mat4 model = model_matrix({}, scene.instances[0]);
   for (const auto& p : scene.meshes[0].positions) {
     low = glm::min(low, glm::vec3(model * glm::vec4(p, 1)));
     high = glm::max(high, glm::vec3(model * glm::vec4(p, 1)));

@@ -304,6 +304,18 @@ TEST(Viewer, DraggingTurnsTheCamera) {
   EXPECT_LE(session.world().scene()->camera.pitch, 1.5708f);
 }
 
+TEST(Viewer, TurnsAMeshFarFrom0AboutItsMiddle) {
+  Scene scene;
+  const glm::dvec3 at(-2'487'002.88, -4'684'683.67, 3'529'638.98), half(0.01);
+  scene.meshes.push_back({.positions = {}, .triangles = {{0, 1, 2}}, .colours = {1}});
+  scene.meshes[0].set_positions(std::vector{at - half, at + half, at + 0.5 * half});
+  scene.instances.emplace_back();
+  World world(scene);
+  world.turn({0, 1, 0}, 3.0f);
+  const Bounds box = bounds_of(*world.scene());
+  EXPECT_LT(glm::distance(0.5 * (box.low + box.high), at), 1e-8);
+}
+
 TEST(Viewer, MovesAlongTheViewOrTheWorld) {
   Session session = session_of("cube");
   type(session, "");
@@ -348,7 +360,7 @@ TEST(Viewer, TurnsObjectsAboutAnyAxis) {
   EXPECT_LT(session.state().angle, 0.0f);
   const glm::vec3 seen = lab::line_of_sight(session.world().scene()->camera);
   EXPECT_EQ(session.state().axis, seen);
-  const glm::mat4 model = model_matrix(session.world().scene()->instances[0]);
+  const glm::mat4 model = model_matrix({}, session.world().scene()->instances[0]);
   EXPECT_NEAR(glm::length(glm::vec3(model[3])), 0.0f, 1e-5f);
   EXPECT_NEAR(glm::determinant(glm::mat3(model)), 1.0f, 1e-5f);
   EXPECT_NE(type(session, "").picture.pixels, home.pixels);

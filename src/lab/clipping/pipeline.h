@@ -22,7 +22,8 @@ inline ViewVolume view_of(const ClippingScene& s) {
 // World position → pixels times w, and w, in float, relative to the camera.
 class ToClip {
  public:
-  explicit ToClip(const ClippingScene& s) : to_screen_(camera_of(s.scene), {}, s.size.width, s.size.height) {}
+  explicit ToClip(const ClippingScene& s)
+      : to_screen_({camera_of(s.scene), s.size.width, s.size.height}, glm::dmat4(1.0)) {}
   ClipVertex operator()(glm::vec3 p) const { return as_clip_vertex(transform(to_screen_, p)); }
 
  private:

@@ -27,7 +27,7 @@ struct Placement {
   Placement(const Scene& scene, Size image, const Instance& instance)
       : camera(camera_of(scene)),
         size(image),
-        model(model_matrix(instance)),
+        model(model_matrix(scene.meshes.at(instance.mesh), instance)),
         turn(to_camera_frame(camera)),
         focal_px(size.height / 2.0 / tangent(double{camera.fov_y} / 2)) {}
 

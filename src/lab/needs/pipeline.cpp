@@ -109,7 +109,8 @@ class Assembly {
     std::uint32_t id = 0;
     for (const Instance& instance : scene.instances) {
       const Mesh& mesh = scene.meshes[instance.mesh];
-      const ScreenTransform to_screen(scene.camera, instance, scene_.width, scene_.height);
+      const glm::dmat4 model = model_matrix(mesh, instance);
+      const ScreenTransform to_screen({scene.camera, scene_.width, scene_.height}, model);
       memory_.vertices.clear();
       for (const glm::vec3 p : mesh.positions) {
         const glm::vec3 v = transform(to_screen, p);
@@ -125,11 +126,11 @@ class Assembly {
       glm::vec3 ray(0.0f);
       float scale = 0.0f;
       if (test == kNormalZ) {
-        ray = in_mesh_space(instance, line_of_sight(scene.camera));
+        ray = in_mesh_space(glm::dmat3(model), line_of_sight(scene.camera));
       } else if (test == kNormalDotObject) {
-        ray = in_mesh_space(instance, centre - scene.camera.position);
+        ray = in_mesh_space(glm::dmat3(model), centre - scene.camera.position);
       } else if (test == kNormalDotEye) {
-        scale = glm::determinant(glm::dmat3(model_matrix(instance))) < 0.0 ? -1.0f : 1.0f;
+        scale = glm::determinant(glm::dmat3(model)) < 0.0 ? -1.0f : 1.0f;
         ray = -scale * to_screen.origin;
       }
       bool front = true;
@@ -339,7 +340,7 @@ PipelineFrame::PipelineFrame(const Drawable& drawable, const FrontendOptions& op
   std::size_t vertices = 0;
   for (const Instance& instance : scene->instances) {
     const Mesh& mesh = scene->meshes.at(instance.mesh);
-    const glm::dmat4 model = model_matrix(instance);
+    const glm::dmat4 model = model_matrix(mesh, instance);
     for (const glm::uvec3 t : mesh.triangles)
       for (int k = 0; k < 3; ++k, ++vertices)
         sum += glm::dvec3(model * glm::dvec4(glm::dvec3(mesh.positions.at(t[k])), 1.0));

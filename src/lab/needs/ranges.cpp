@@ -69,7 +69,7 @@ std::array<Reach, kViewPlanes> Ranges::add(const StudiedFrame& frame) {
   std::vector<ClipVertex> vertices;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const ScreenTransform to_screen(scene.camera, instance, width, height);
+    const ScreenTransform to_screen({scene.camera, width, height}, model_matrix(mesh, instance));
     vertices.clear();
     for (const glm::vec3 p : mesh.positions) vertices.push_back(as_clip_vertex(transform(to_screen, p)));
     for (const glm::uvec3 t : mesh.triangles) {

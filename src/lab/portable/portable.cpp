@@ -181,8 +181,9 @@ void check(std::span<const PortableTriangle> triangles, int width, int height, c
   if (width < 1 || height < 1 || width > contract::kMaxImageSide || height > contract::kMaxImageSide)
     throw std::invalid_argument("the size of a picture must be 1 to " +
                                 std::to_string(contract::kMaxImageSide) + " px on each side");
-  if (model.subpixel_bits < 1 || model.subpixel_bits > 16)
-    throw std::invalid_argument("subpixel bits must be 1 to 16");
+  if (model.subpixel_bits < 1 || model.subpixel_bits > contract::kSubBits)
+    throw std::invalid_argument("subpixel bits must be 1 to " + std::to_string(contract::kSubBits) +
+                                ": the library draws no more yet");
   if (model.transform_ulps < 0 || model.transform_ulps > 1000)
     throw std::invalid_argument("units in the last place must be 0 to 1000");
   if (model.guard_band_px < 0 || model.guard_band_px > kMostPx)
@@ -209,7 +210,7 @@ class ClipErrors {
     Largest of{};
     if (sources_) {
       const auto [instance, mesh, index] = sources_->at(t.id);
-      const ScreenTransform to_screen(camera_, instance, width_, height_);
+      const ScreenTransform to_screen({camera_, width_, height_}, model_matrix(mesh, instance));
       const double depth_scale = double{camera_.far_z} / (double{camera_.far_z} - least_w_);
       for (int i = 0; i < 3; ++i) {
         const ClipVertex v = to_screen(mesh.positions[mesh.triangles[index][i]]);

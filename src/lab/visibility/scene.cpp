@@ -59,7 +59,8 @@ VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
     const UnsnappedTriangle& at = unsnapped[i];
     VisibilityTriangle t{triangles[i], {}, {}, {}};
     const auto [instance, mesh, index] = sources.at(triangles[i].payload);
-    const SourceTriangle source({scene.camera, instance, size.width, size.height}, mesh, index);
+    const ScreenTransform to_screen({scene.camera, size.width, size.height}, model_matrix(mesh, instance));
+    const SourceTriangle source(to_screen, mesh, index);
     for (int k = 0; k < 3; ++k) {
       t.x_px[k] = at.x_px[k];
       t.y_px[k] = at.y_px[k];

@@ -37,6 +37,7 @@ from .frames import DEPTH_CLEAR as DEPTH_CLEAR
 from .frames import Camera as Camera
 from .frames import Frame as Frame
 from .frames import Queries as _Queries
+from .frames import Stats as Stats
 from .frames import depth01 as depth01
 from .frames import id_colours as id_colours
 from .frames import metric_depth as metric_depth
@@ -66,7 +67,7 @@ _Drawn = TypeVar("_Drawn", bound="_Drawable")
 
 class Mesh(NamedTuple):
     """What a scene holds of a mesh: copies of add_mesh()'s arguments, in the types that it states."""
-    positions: NDArray[np.float32]  # shape (n, 3)
+    positions: NDArray[np.float32] | NDArray[np.float64]  # shape (n, 3); float64 if the mesh was given so, far from 0
     triangles: NDArray[np.uint32]  # shape (m, 3)
     colours: NDArray[np.uint32]  # shape (m,)
     two_sided: bool
@@ -111,7 +112,8 @@ def perspective(fov_y: float, aspect: float, near: float, far: float = math.inf)
 def orthographic(left: float, right: float, bottom: float, top: float, near: float, far: float) -> NDArray[np.float64]:
     """The projection without perspective, shape (4, 4), from the same view space as perspective()'s.
 
-    All are coordinates or distances in view space. ValueError if two opposite ones are equal.
+    All are coordinates or distances in view space. left > right or bottom > top mirrors the picture. ValueError if two of
+    these are equal, and unless near < far: projection_from() converts reversed depth.
     """
     return _native.orthographic(*_check.numbers(left=left, right=right, bottom=bottom, top=top, near=near, far=far))
 
@@ -195,8 +197,8 @@ class _Drawable:
                 raise ValueError(f"onto has the shape {np.shape(frame.depth)}, not {shape}")
             if not clear and frame.depth.dtype.kind == "u" and np.max(frame.depth, initial=0) > DEPTH_CLEAR:
                 raise ValueError("onto has a depth above DEPTH_CLEAR")
-        self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth, ids, *options,
-                          clear or onto is None, scissor, progress)
+        frame.stats = Stats(*self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth, ids,
+                                               *options, clear or onto is None, scissor, progress))
         if not depth_only:
             frame.has_ids = ids
         return frame
@@ -232,12 +234,14 @@ class Scene(_Queries, _Drawable):
                  two_sided: bool = False) -> int:
         """Adds a mesh, which only its instances show, and returns its number. Copies the arrays.
 
-        positions: shape (n, 3), float32. triangles: shape (m, 3), integers, indices of positions. colours: shape (m,),
-        uint32, 0xAABBGGRR, or (m, 3), uint8, RGB; else light grey. two_sided: no triangle is culled, and each is lit on the
-        side that is seen. Triangles with NaN or infinity are not drawn. ValueError for an index out of range.
+        positions: shape (n, 3), float32 or float64, to which other types are converted. In float64, a mesh far from 0 keeps
+        its shape: coordinates lose at most 2**-24 of the longest side of its box (Mesh::set_positions in scene.h says how).
+        triangles: shape (m, 3), integers, indices of positions. colours: shape (m,), uint32, 0xAABBGGRR, or (m, 3), uint8,
+        RGB; else light grey. two_sided: no triangle is culled, and each is lit on the side that is seen. Triangles with NaN
+        or infinity are not drawn: Frame.stats counts them. ValueError for an index out of range.
         """
         return self._native.add_mesh(
-            _check.array(positions, "positions", np.float32), _check.array(triangles, "triangles", np.uint32),
+            _check.points(positions), _check.array(triangles, "triangles", np.uint32),
             None if colours is None else _colours(colours, of_mesh=True), *_check.flags(two_sided=two_sided))
 
     def add_instance(self, mesh: int, matrix: ArrayLike = IDENTITY) -> int:
@@ -245,7 +249,7 @@ class Scene(_Queries, _Drawable):
         return self._native.add_instance(*_check.counts(mesh=mesh), _check.array(matrix, "matrix", np.float64))
 
     def set_instance(self, instance: int, matrix: ArrayLike) -> None:
-        """Moves an instance. matrix: affine, shape (4, 4), from the mesh to the world."""
+        """Moves an instance. matrix: affine, shape (4, 4), from the mesh's positions, as they were given, to the world."""
         self._native.set_instance(*_check.counts(instance=instance), _check.array(matrix, "matrix", np.float64))
 
     def remove_instance(self, instance: int) -> None:
@@ -253,8 +257,8 @@ class Scene(_Queries, _Drawable):
         self._native.remove_instance(*_check.counts(instance=instance))
 
     def set_positions(self, mesh: int, positions: ArrayLike) -> None:
-        """Moves a mesh's vertices, for animation. positions: as many as before, shape (n, 3), float32; they are copied."""
-        self._native.set_positions(*_check.counts(mesh=mesh), _check.array(positions, "positions", np.float32))
+        """Moves a mesh's vertices, for animation. positions: as many as before, as add_mesh() takes them; they are copied."""
+        self._native.set_positions(*_check.counts(mesh=mesh), _check.points(positions))
 
     def set_light(self, direction: Sequence[float]) -> None:
         """The direction towards the light, in world space: three numbers, finite, and of any length but 0."""
@@ -263,7 +267,7 @@ class Scene(_Queries, _Drawable):
     @property
     def meshes(self) -> tuple[Mesh, ...]:
         """The meshes by number, copied."""
-        return tuple(Mesh(mesh["positions"], mesh["triangles"], mesh["colours"], bool(mesh["flags"].size and (mesh["flags"] & 1).all()))
+        return tuple(Mesh(mesh["positions"] + mesh["origin"] if mesh["origin"].any() else mesh["positions"], mesh["triangles"], mesh["colours"], bool(mesh["flags"].size and (mesh["flags"] & 1).all()))
                      for mesh in self._native.meshes())
 
     @property
@@ -317,9 +321,11 @@ class Scene(_Queries, _Drawable):
 
         Returns uv, shape (height, width, 2), and distance along the view direction, shape (height, width); for a frame of
         several views, and as many cameras, (views, height, width, 2) and (views, height, width). A pixel's value
-        of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0; their error is below
-        2**-25 + 2**-47, that of the distance below 2**-24 + 2**-48 of it. The distance is w in clip space, so a projection
-        with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background: 0 and infinity.
+        of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0. The distance is w in clip space,
+        so a projection with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background:
+        0 and infinity. Errors of u and v are below 2**-25 + 2**-47 + e / 2, that of the distance below 2**-24 + 2**-48 + e of
+        it, where e, usually below 2**-19, is 2**-20 times the largest ratio of a vertex's distance from the camera to its w,
+        and 0 in a stream (barycentrics.h).
         ValueError if the frame shows something else than this scene, seen by this camera, with this culling. If it was drawn
         over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
         """

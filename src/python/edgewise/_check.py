@@ -110,6 +110,10 @@ def array(values: Any, name: str, dtype: Any) -> NDArray[Any]:
     return made
 
 
+def points(values: Any) -> NDArray[Any]:
+    return array(values, "positions", np.float32 if as_array(values).dtype == np.float32 else np.float64)
+
+
 def vectors(**given: Any) -> list[NDArray[np.float64]]:
     arrays = [array(values, name, np.float64) for name, values in given.items()]
     for name, values in zip(given, arrays):

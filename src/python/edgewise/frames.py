@@ -34,6 +34,29 @@ class Camera(NamedTuple):
         return hash(tuple((np.asarray(matrix, np.float64) + 0.0).tobytes() for matrix in self))  # -0.0 becomes 0.0
 
 
+class Stats(NamedTuple):
+    """Counts of a draw, added up over its views.
+
+    triangles = whole_mesh + not_finite + outside + not_in_front + those that become pieces; pieces = culled + zero_area +
+    emitted.
+    """
+    meshes: int  # instances
+    meshes_culled: int  # of these, out of view
+    triangles: int
+    whole_mesh: int  # dropped with their instance, which is out of view
+    not_finite: int  # dropped: a vertex is NaN or infinite
+    outside: int  # dropped: out of view
+    not_in_front: int  # dropped: behind the camera
+    clipped: int
+    clipped_near: int
+    clipped_far: int
+    clipped_guard: int
+    pieces: int  # triangles after clipping
+    culled: int  # pieces dropped for their facing
+    zero_area: int  # pieces dropped: no area once rounded to 1/256 px
+    emitted: int  # pieces drawn
+
+
 class _Planes(NamedTuple):
     payload: NDArray[np.uint32]  # or None; a type that says so would burden all who draw payloads
     depth: NDArray[np.uint32]
@@ -45,8 +68,10 @@ class Frame(_Planes):
     payload: uint32, ids or colours 0xAABBGGRR; None if only depth was drawn. An id is the number of a triangle, counted
     through the instances in order. Colours in memory are R, G, B, A: payload[..., None].view(np.uint8).
     depth: uint32, smaller is nearer; depth01() and metric_depth() convert it.
-    has_ids: whether a draw wrote ids, not colours; None for a Frame that no draw made.
+    stats: the counts of the draw that returned it. has_ids: whether that draw wrote ids, not colours. None for a Frame
+    that no draw made.
     """
+    stats: Stats | None = None
     has_ids: bool | None = None
 
     def _repr_png_(self) -> bytes | None:
