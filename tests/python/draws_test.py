@@ -93,7 +93,7 @@ def test_other_numbers_are_the_same_as_floats():
 
 def test_stats_count_what_is_dropped():
     positions, indices, _ = triangles()
-    positions[[0, 7]] = np.nan, np.inf
+    positions[0], positions[7] = np.nan, np.inf
     drawn = edgewise.Scene(positions, indices)
     frame = drawn.draw(CAMERA, SIZE)
     assert frame.stats.not_finite == 2 and frame.stats.triangles == 60 and frame.stats.meshes == 1
