@@ -11,7 +11,7 @@ int main() {
   Frontend frontend;  // it and the backend keep their memory: make them once, draw often
   const auto backend = find_backend("tiled").make();
   Framebuffer frame(640, 360);
-  draw(scene, frontend, {.width = 640, .height = 360, .threads = 2}, *backend, frame.view(),
-       rgb(30, 30, 40), {.threads = 2});  // front end and backend
+  draw(scene, frontend, {.width = 640, .height = 360, .threads = 2}, *backend, frame.view(), rgb(30, 30, 40),
+       {.threads = 2});  // front end and backend
   write_image("mesh.png", to_image(frame.view()));
 }
