@@ -13,7 +13,8 @@
 
 #include "edgewise/framebuffer.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // An 8-bit RGB picture. Pixels are 0xAABBGGRR; alpha is ignored.
 struct Image {
@@ -66,3 +67,4 @@ Difference difference(const DepthMap& a, const DepthMap& b);
 Image enlarge(const Image& image, int factor);
 
 }  // namespace edgewise
+#pragma GCC visibility pop
