@@ -30,7 +30,8 @@ namespace edgewise {
 class TriangleSource;  // internal
 }
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 class Frontend;
 struct FrontendOptions;
@@ -148,3 +149,4 @@ const BackendInfo& find_backend(std::string_view name);
 const BackendInfo& wireframe();
 
 }  // namespace edgewise
+#pragma GCC visibility pop

@@ -13,7 +13,8 @@
 #include "edgewise/frontend.h"
 #include "edgewise/scene.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // What barycentrics() writes, in the caller's memory. Row 0 is the top. Strides count floats from row to row.
 // A plane that is null is not written.
@@ -58,3 +59,4 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
                   const BarycentricsView& out);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

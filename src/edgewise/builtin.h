@@ -14,7 +14,8 @@
 
 #include "edgewise/scene.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 struct SceneRequest {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide; scenes of meshes ignore it
@@ -45,3 +46,4 @@ TriangleStream random_stream(const SceneRequest& request, std::size_t count, dou
                              std::uint64_t seed);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

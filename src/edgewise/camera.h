@@ -17,7 +17,8 @@
 
 #include <glm/glm.hpp>
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 struct Camera {
   glm::dvec3 position{0.0};
@@ -87,3 +88,4 @@ inline constexpr ClipSpace kOpenGl{.z_from_minus_w = true}, kDirect3d{}, kVulkan
 glm::dmat4 projection_from(ClipSpace space, const glm::dmat4& projection);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

@@ -1,4 +1,5 @@
-// Stops compilers in a mode older than C++20. Every public header includes this one first.
+// Stops compilers in a mode older than C++20. Every public header includes this one first. The visibility
+// pragmas of a header make shared libraries export what it declares, whatever the flags of the compiler.
 #pragma once
 
 // GCC and Clang stop at once if an included file does not exist. After #error they would go on and print
@@ -6,7 +7,3 @@
 #if __cplusplus < 202002L
 #include "Edgewise needs C++20: compile with -std=c++20"
 #endif
-
-// Of the namespaces in public headers: shared libraries export what they declare, whatever the compiler's
-// flags.
-#define EDGEWISE_PUBLIC [[gnu::visibility("default")]]

@@ -11,7 +11,8 @@
 #include <memory>
 #include <new>
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // A read-only view of a frame. Row y starts at depth + y * stride and payload + y * stride; row 0 is the top.
 // `payload` is null if only depth was drawn.
@@ -71,3 +72,4 @@ class Framebuffer {
 };
 
 }  // namespace edgewise
+#pragma GCC visibility pop

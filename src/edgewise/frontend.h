@@ -21,7 +21,8 @@ namespace edgewise {
 class TriangleSource;  // internal
 }
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // Which triangles to drop for their facing.
 enum class Cull { none, back, front, both };
@@ -154,3 +155,4 @@ class Frontend {
 };
 
 }  // namespace edgewise
+#pragma GCC visibility pop

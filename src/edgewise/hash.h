@@ -9,7 +9,8 @@
 
 #include "edgewise/framebuffer.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // XXH3-64 (seed 0) of these 32-bit words, of which each is four bytes, the lowest first, on every machine:
 //   width, height, then row by row from the top: the depths of the row, from the left, then its payloads,
@@ -22,3 +23,4 @@ std::uint64_t hash_of(const ConstFrameView& frame);
 std::uint64_t hash_of_all(std::span<const std::uint64_t> hashes);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

@@ -14,7 +14,8 @@
 
 #include "edgewise/framebuffer.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // An 8-bit RGB picture. Pixels are 0xAABBGGRR. Files are written without alpha, and read as if it were 255;
 // difference() counts where it differs.
@@ -95,3 +96,4 @@ Difference difference(const std::filesystem::path& a, const std::filesystem::pat
 Image enlarge(const Image& image, int factor);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

@@ -13,7 +13,8 @@
 
 #include "edgewise/scene.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 struct ObjOptions {
   // Leaves the mesh near 0: its origin stays 0. For coordinates of a survey, say.
@@ -47,3 +48,4 @@ Scene read_obj(const std::filesystem::path& path, const ObjOptions& options = {}
                ObjReport* report = nullptr);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

@@ -19,7 +19,8 @@
 
 #include "edgewise/camera.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // camera.h defines world space. Colours are 0xAABBGGRR (red in the lowest byte). Angles are in radians,
 // lengths in world units.
@@ -157,3 +158,4 @@ void frame_camera(Scene& scene, double aspect = 1.0);
 glm::dmat4 model_matrix(const Mesh& mesh, const Instance& instance);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

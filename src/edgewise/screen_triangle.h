@@ -9,7 +9,8 @@
 #include <cstdint>
 #include <span>
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // Either winding is allowed, and a triangle of zero area draws nothing. Backends rely on these ranges (rules
 // 3 and 6 of contract.h) and do not check them:
@@ -39,3 +40,4 @@ class ScreenTriangles : public std::span<const ScreenTriangle> {
 };
 
 }  // namespace edgewise
+#pragma GCC visibility pop

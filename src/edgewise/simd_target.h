@@ -7,7 +7,8 @@
 #include <span>
 #include <string_view>
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // All targets draw the same bits.
 enum class SimdTarget { scalar, sse4, avx2, avx512, neon, best };
@@ -23,3 +24,4 @@ std::string_view name_of(SimdTarget target);
 SimdTarget resolve(SimdTarget target);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

@@ -14,7 +14,8 @@
 
 #include "edgewise/scene.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // Reads vertices of any value, NaN included, unchanged: the front end drops those it cannot draw. Throws
 // std::runtime_error, with the file's name and the fault, if the file
@@ -29,3 +30,4 @@ TriangleStream read_tri(const std::filesystem::path& path);
 void write_tri(std::ostream& out, const TriangleStream& stream);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

@@ -20,7 +20,8 @@
 #include "edgewise/framebuffer.h"
 #include "edgewise/scene.h"
 
-namespace EDGEWISE_PUBLIC edgewise {
+#pragma GCC visibility push(default)
+namespace edgewise {
 
 // The visible triangles: each id that a pixel has, once, in ascending order. Needs one bit of memory per id
 // up to the highest one. Throws std::invalid_argument for an id of kMaxTriangles or more.
@@ -58,3 +59,4 @@ std::vector<std::uint32_t> pixels_per_mesh(const ConstFrameView& ids, const Scen
 bool visible(const Bounds& box, const Scene& scene, const ConstFrameView& depth);
 
 }  // namespace edgewise
+#pragma GCC visibility pop

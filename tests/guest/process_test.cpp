@@ -32,8 +32,8 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-const Drawable& knot() {
-  static const auto& made = *new Drawable(find_scene("torus-knot").make(SceneRequest{}));
+const Drawable& triangles() {
+  static const auto& made = *new Drawable(find_scene("medium").make({kWidth, kHeight, 0.0f, 0.2}));
   return made;
 }
 
@@ -49,7 +49,7 @@ class Guest {
   }
 
  private:
-  Drawable drawable_ = knot();
+  Drawable drawable_ = triangles();
   Frontend frontend_;
   std::unique_ptr<Backend> backend_ = find_backend("tiled").make();
   Framebuffer frame_ = Framebuffer(kWidth, kHeight);
@@ -121,7 +121,7 @@ TEST(ProcessFork, AChildDrawsWhileAThreadOfItsParentDraws) {
     Guest busy;
     while (!done) busy.draw(2);
   });
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(status_of_child([&] { return Guest().draw(2) == expected; }), 0) << "objects of its own";
     EXPECT_EQ(status_of_child([&] { return idle.draw(3) == expected; }), 0) << "its parent's, idle ones";
     EXPECT_EQ(status_of_child([&] { return status_of_child([&] { return idle.draw(2) == expected; }) == 0; }),
