@@ -186,7 +186,7 @@ TEST(Origins, AreZeroWhereFloatsAreEnough) {
 }
 
 // Normals of faces and boxes of clusters.
-TEST(Origins, WhatFollowsFromPositionsIsRenewed) {
+TEST(Origins, NormalsAndClustersAreRenewed) {
   const std::string faces = "f 1 2 3 4\nf 2 1 5\nf 4 3 2 1 5\n";
   const TempDir dir;
   const auto read = [&](const std::string& vertices) {

@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"PngIsText", ".png", "hello, this is no picture",
                 "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM"},
         BadFile{"PpmEmpty", ".ppm", "", "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM"},
-        BadFile{"PpmNoBlank", ".ppm", "P61 1 255\n123", "does not start with P2 or P3 or P5 or P6"},
+        BadFile{"PpmNoBlank", ".ppm", "P61 1 255\n123", "does not start with P2, P3, P5 or P6"},
         BadFile{"PlainTooShort", ".ppm", "P3\n1 1\n255\n1 2\n",
                 "truncated: header promises 3 samples, 4 bytes follow"},
         BadFile{"PlainLacksASample", ".ppm", "P3\n1 1\n255\n1   2  \n", "malformed or truncated text"},

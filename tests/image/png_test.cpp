@@ -198,7 +198,7 @@ TEST(Png, CutBehindItsPixelsIsReadWithAWarning) {
     const auto path = dir.write("a.png", whole.substr(0, end) + tail);
     std::vector<std::string> warnings;
     EXPECT_EQ(read_image(path, &warnings).pixels, kEightPixels);
-    EXPECT_EQ(warnings, std::vector<std::string>{path.string() + ": is cut behind its pixels"});
+    EXPECT_EQ(warnings, std::vector<std::string>{path.string() + ": ends after its pixels, without IEND"});
     EXPECT_EQ(read_image(path).pixels, kEightPixels);
   }
   const auto path = dir.write("a.png", whole.substr(0, end - 1));  // within the checksum
