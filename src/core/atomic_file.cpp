@@ -85,7 +85,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   if (is_descriptor(target) || (exists && !fs::is_regular_file(status))) {
     const auto descriptor = descriptor_of(target);
     buffer_.attach(descriptor ? fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
-                              : open(path_.c_str(), O_WRONLY | O_CLOEXEC));
+                              : open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
     if (buffer_.descriptor() < 0) throw system_error(path_, errno, kUnwritable);
     return;
   }

@@ -133,6 +133,7 @@ Difference difference(const DepthMap& a, const DepthMap& b) {
 }
 
 Difference difference(const Picture& a, const Picture& b, const Picture* mask) {
+  const DefaultFloatState state;
   const auto* const masks = mask == nullptr ? nullptr : std::get_if<Samples>(mask);
   if (mask != nullptr && masks == nullptr)
     throw std::invalid_argument("a mask must be a picture, not floats");

@@ -228,7 +228,6 @@ Samples to_samples(const Image& image) {
 }
 
 Image read_image(const fs::path& path, std::vector<std::string>* warnings) {
-  const DefaultFloatState state;
   return to_image(path, read_picture(path, warnings));
 }
 
@@ -240,7 +239,6 @@ Grey16 to_grey16(const Samples& grey) {
 }
 
 Grey16 read_grey16(const fs::path& path, std::vector<std::string>* warnings) {
-  const DefaultFloatState state;
   const Picture picture = read_picture(path, warnings);
   const auto* const samples = std::get_if<Samples>(&picture);
   if (samples == nullptr || !samples->grey) throw file_error(path, "is no picture of grey");

@@ -101,13 +101,14 @@ TEST(AtomicFile, WritesToOpenDescriptorsWhereTheyStand) {
     file.commit();
   }
   EXPECT_EQ(file_content(path), "older new new ");
-  fs::remove(link);
+  fs::remove(link), fs::create_hard_link(path, dir.path() / "same");
   fs::create_symlink("/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(descriptor), link);
   AtomicFile file(link);
   file.stream() << "newer";
   file.commit();
   close(descriptor);
-  EXPECT_EQ(file_content(path), "newer new new ");
+  EXPECT_EQ(file_content(path), "newer");
+  EXPECT_EQ(fs::hard_link_count(path), 2u) << "the same file";
   EXPECT_TRUE(fs::is_symlink(link));
 }
 
@@ -190,12 +191,17 @@ TEST(AtomicFile, AFileThatCannotBeReplacedStays) {
   EXPECT_TRUE(fs::is_directory(path));
 }
 
-// Opening one would wait for a writer, and closing it would break one.
-TEST(InputFile, NamedPipesAreRefusedWithoutOpeningThem) {
+// Opening a named pipe would wait for a writer, and closing it would break one.
+TEST(InputFile, PipesDevicesFoldersAndMissingFilesAreRefusedWithoutOpeningThem) {
   const TempDir dir;
-  const fs::path pipe = dir.path() / "pipe";
+  const fs::path pipe = dir.path() / "pipe", none = dir.path() / "none";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(message_of([&] { open_input(pipe); }), pipe.string() + ": is not a regular file");
+  for (const auto& [path, why] :
+       std::vector<std::pair<fs::path, std::string>>{{pipe, "is not a regular file"},
+                                                     {"/dev/zero", "is not a regular file"},
+                                                     {dir.path(), "is a directory"},
+                                                     {none, "No such file or directory"}})
+    EXPECT_EQ(message_of([&] { open_input(path); }), path.string() + ": " + why);
 }
 
 // The same number may stand for another pipe later.

@@ -93,13 +93,6 @@ TEST(TriFile, MalformedOnesAreRefusedWithTheReason) {
   }
 }
 
-TEST(TriFile, FoldersAndDevicesAreRefused) {
-  const TempDir dir;
-  EXPECT_EQ(message_of([&] { read_tri(dir.path()); }), dir.path().string() + ": is a directory");
-  EXPECT_NE(message_of([&] { read_tri(dir.path() / "none.tri"); }).find("No such file"), std::string::npos);
-  EXPECT_EQ(message_of([&] { read_tri("/dev/zero"); }), "/dev/zero: is not a regular file");
-}
-
 // ---- OBJ
 
 TEST(ObjFile, WindingIsReversed) {
@@ -426,12 +419,6 @@ TEST(ObjFile, TheOffsetIsRoundAndOnlyForMeshesFarAway) {
   EXPECT_EQ(offset("v 5 5 5\nv 5 5 5\nv 5 5 5\n", false), glm::dvec3(5, 5, 5));
   EXPECT_EQ(offset("v 0 0 0\nv 0 0 0\nv 0 0 0\n", true), glm::dvec3(0, 0, 0));
   EXPECT_EQ(offset("v 3.4e38 0 0\nv -3.4e38 0 0\nv 0 0 0\n", true), glm::dvec3(0, 0, 0));
-}
-
-TEST(ObjFile, FoldersAndMissingFilesAreRefused) {
-  const TempDir dir;
-  EXPECT_EQ(message_of([&] { read_obj(dir.path()); }), dir.path().string() + ": is a directory");
-  EXPECT_NE(message_of([&] { read_obj(dir.path() / "none.obj"); }).find("No such file"), std::string::npos);
 }
 
 }  // namespace

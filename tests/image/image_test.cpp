@@ -47,9 +47,7 @@ TEST_P(ImageFormat, RoundTripKeepsEveryPixel) {
     const Image image = test_image(width, height);
     write_image(path_, image);
     const Image back = read_image(path_);
-    EXPECT_EQ(back.width, width);
-    EXPECT_EQ(back.height, height);
-    EXPECT_EQ(back.pixels, image.pixels);
+    EXPECT_EQ(std::tie(back.width, back.height, back.pixels), std::tie(width, height, image.pixels));
   }
 }
 
