@@ -36,7 +36,7 @@ Image test_image(int width, int height) {
 
 // ---- Pictures
 
-class ImageFormat : public testing::TestWithParam<const char*> {
+class ImageFormat : public ::testing::TestWithParam<const char*> {
  protected:
   const TempDir dir_;
   const fs::path path_ = dir_.path() / (std::string("a") + GetParam());
@@ -78,7 +78,7 @@ TEST_P(ImageFormat, WrongPixelCountOrSizeIsNotWritten) {
   EXPECT_EQ(dir_.count(), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, testing::Values(".png", ".ppm", ".PNG"),
+INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, ::testing::Values(".png", ".ppm", ".PNG"),
                          [](const auto& p) { return "Format" + std::to_string(p.index); });
 
 TEST(Ppm, HeaderMayHaveCommentsAndFewerLevels) {
@@ -371,7 +371,7 @@ TEST(FloatMode, ChangesNoPictureOfAFile) {
   for (const float value : {std::nanf(""), 0.1f, 0.3f, 1e-40f, 0.7f, 2.0f})
     pfm.append(std::begin(std::bit_cast<std::array<char, 4>>(value)), 4);
   const fs::path file = dir.write("a.pfm", pfm), png = dir.path() / "a.png", depth = dir.path() / "b.pfm";
-  edgewise::testing::expect_same_in_every_float_mode([&](int) {
+  testing::expect_same_in_every_float_mode([&](int) {
     const Image image = read_image(file);
     write_image(png, image);
     std::string found = file_content(png);
