@@ -89,15 +89,17 @@ std::vector<std::size_t> first_ids(const Scene& scene) {
 std::map<std::string, std::vector<std::uint32_t>> objects(const Scene& scene) {
   const std::vector<std::size_t> first = first_ids(scene);
   (void)checked_count(first.back());
-  std::size_t total = 0;
+  std::size_t total = 0;  // of their parts
+  for (const Instance& instance : scene.instances)
+    for (const MeshPart& part : mesh_of(scene, instance).parts) total += part.count;
+  if (total > kMaxTriangles)
+    throw std::invalid_argument("parts of " + std::to_string(total) + " triangles together are more than " +
+                                std::to_string(kMaxTriangles));
   std::map<std::string, std::vector<std::uint32_t>> objects;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = mesh_of(scene, scene.instances[i]);
     for (const MeshPart& part : mesh.parts) {
       check_part(mesh, part);
-      if ((total += part.count) > kMaxTriangles)
-        throw std::invalid_argument("the scene's parts have more than " + std::to_string(kMaxTriangles) +
-                                    " triangles together");
       auto& ids = objects[part.name];
       ids.resize(ids.size() + part.count);
       std::iota(ids.end() - static_cast<std::ptrdiff_t>(part.count), ids.end(),
