@@ -1,6 +1,7 @@
 // The C interface (edgewise.h). No exception leaves it.
 #include <algorithm>
 #include <bit>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <glm/gtc/type_ptr.hpp>
@@ -35,21 +36,17 @@ struct edgewise_renderer {
 
 namespace {
 
-thread_local std::string last_error;
+// Not a std::string: exit handlers may call after it would be destroyed.
+constinit thread_local char last_error[1024] = "";
 
 edgewise_status failed(edgewise_status status, const char* text) noexcept {
-  try {
-    last_error = text;
-  } catch (...) {  // no memory for the text
-    last_error.clear();
-  }
+  std::snprintf(last_error, sizeof last_error, "%s", text);
   return status;
 }
 
-// Calls f(), and turns what it throws into a status.
+// Calls f() in the caller's floating-point state, and turns what it throws into a status.
 template <typename F>
-edgewise_status status_of(F&& f) noexcept {
-  const DefaultFloatState state;
+edgewise_status status_in_callers_state(F&& f) noexcept {
   try {
     f();
     return EDGEWISE_OK;
@@ -64,6 +61,11 @@ edgewise_status status_of(F&& f) noexcept {
   } catch (...) {
     return failed(EDGEWISE_FAILED, "unknown error");
   }
+}
+template <typename F>
+edgewise_status status_of(F&& f) noexcept {
+  const DefaultFloatState state;
+  return status_in_callers_state(f);
 }
 
 template <typename T>
@@ -146,7 +148,7 @@ int edgewise_abi(void) {
 }
 
 const char* edgewise_error(void) {
-  return last_error.c_str();
+  return last_error;
 }
 
 edgewise_status edgewise_new_scene(edgewise_scene** scene) {
@@ -353,7 +355,7 @@ edgewise_status edgewise_objects(const edgewise_scene* scene,
                                  void (*each)(void* context, const char* name, const uint32_t* ids,
                                               size_t count),
                                  void* context) {
-  return status_of([&] {
+  return status_in_callers_state([&] {
     given(each, "each");
     for (const auto& [name, ids] : objects(meshes_of(scene)))
       each(context, name.c_str(), ids.data(), ids.size());

@@ -21,6 +21,7 @@ struct FloatMode {
 
 // All that the machine has.
 inline std::vector<FloatMode> float_modes() {
+  std::fesetenv(FE_DFL_ENV);  // exceptions that were raised before would trap below
   std::vector<FloatMode> modes{{"upward", [] { std::fesetround(FE_UPWARD); }},
                                {"downward", [] { std::fesetround(FE_DOWNWARD); }},
                                {"toward zero", [] { std::fesetround(FE_TOWARDZERO); }}};

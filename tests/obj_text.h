@@ -10,7 +10,7 @@
 
 namespace edgewise {
 
-const std::string kCorners = "v 1 2 3\nv 4 5 6\nv 7 8 10\n";
+inline const std::string kCorners = "v 1 2 3\nv 4 5 6\nv 7 8 10\n";
 
 struct ReadObj {
   Scene scene;

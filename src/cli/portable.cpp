@@ -52,8 +52,8 @@ int fewest_bits(const std::string& text) {
   const auto dash = text.find('-', 1);
   const int fewest = parse_integer("--bits", text.substr(0, dash), 1, 16);
   if (fewest > contract::kSubBits)
-    throw std::invalid_argument(fmt::format("--bits: {} are too many: the library draws no more than {} yet",
-                                            fewest, contract::kSubBits));
+    throw std::invalid_argument(
+        fmt::format("--bits: at most {}, the subpixel bits that the library draws", contract::kSubBits));
   if (dash != std::string::npos) parse_integer("--bits", text.substr(dash + 1), fewest, 16);
   return fewest;
 }
@@ -185,8 +185,7 @@ Action add_portable(CLI::App& command) {
   add_text(command, "--picture", "FILE", o->picture, "Reference picture, named like the mask");
   add_format(command, o->format, {Format::png, Format::ppm});
   command.add_flag("--ids", o->ids, "The reference picture shows triangle ids, as `render --payload id`");
-  add_parsed(command, "--bits", "N",
-             "Subpixel bits of the rasterizers, as 8 or 4-8; the fewest, at most 8, decide (8)",
+  add_parsed(command, "--bits", "N", "Subpixel bits of the rasterizers, as 8 or 4-8; the fewest decide (8)",
              [o](const std::string& text) { o->model.subpixel_bits = fewest_bits(text); });
   add_integer(command, "--ulps", o->model.transform_ulps, 0, 1000,
               "Error of the viewport transform, in units in the last place (2)");

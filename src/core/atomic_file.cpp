@@ -17,8 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FileError write_error(const fs::path& path, const char* what = "cannot be written", int error = errno) {
-  return system_error(path, error, what);
+constexpr const char* kUnwritable = "cannot be written";
+
+// A link to an open file, of this or of another process. The name that it shows may be another file's by now.
+bool is_descriptor(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path name = fs::absolute(path, ignored).lexically_normal();
+  return descriptor_of(path) ||
+         (name.string().starts_with("/proc/") && name.parent_path().filename() == "fd");
 }
 
 }  // namespace
@@ -26,7 +32,7 @@ FileError write_error(const fs::path& path, const char* what = "cannot be writte
 fs::path after_links(fs::path path) {
   constexpr int kMostLinks = 40;
   std::error_code error;
-  for (int i = 0; i < kMostLinks && !descriptor_of(path) && fs::is_symlink(path, error); ++i)
+  for (int i = 0; i < kMostLinks && !is_descriptor(path) && fs::is_symlink(path, error); ++i)
     path = path.parent_path() / fs::read_symlink(path);
   return path;
 }
@@ -70,25 +76,26 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   stream_.imbue(std::locale::classic());
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
-  if (status.type() == fs::file_type::none) throw write_error(path_, "cannot be written", error.value());
+  if (status.type() == fs::file_type::none) throw system_error(path_, error.value(), kUnwritable);
   if (fs::is_directory(status)) throw FileError(path_, "is a directory", EISDIR);
   const bool exists = fs::exists(status);
   const fs::path target = after_links(path_);
   // A rename over /dev/null would replace it, and one over /dev/stdout a file that another process holds
   // open.
-  if (const auto descriptor = descriptor_of(target); descriptor || (exists && !fs::is_regular_file(status))) {
+  if (is_descriptor(target) || (exists && !fs::is_regular_file(status))) {
+    const auto descriptor = descriptor_of(target);
     buffer_.attach(descriptor ? fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
-                              : open(path_.c_str(), O_WRONLY | O_CLOEXEC));
-    if (buffer_.descriptor() < 0) throw write_error(path_);
+                              : open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
+    if (buffer_.descriptor() < 0) throw system_error(path_, errno, kUnwritable);
     return;
   }
-  if (exists && access(target.c_str(), W_OK) != 0) throw write_error(path_);
+  if (exists && access(target.c_str(), W_OK) != 0) throw system_error(path_, errno, kUnwritable);
 
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
   folder_.descriptor = open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
   if (folder_.descriptor < 0 && errno == ENOENT)
     throw FileError(path_, "cannot be written: there is no folder " + folder.string(), ENOENT);
-  if (folder_.descriptor < 0) throw write_error(path_);
+  if (folder_.descriptor < 0) throw system_error(path_, errno, kUnwritable);
   name_ = target.filename();
   buffer_.attach(openat(folder_.descriptor, ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
   const bool unnamed = buffer_.descriptor() >= 0 && access(link().c_str(), F_OK) == 0;
@@ -97,7 +104,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     return buffer_.descriptor() >= 0;
   };
   if (!unnamed && !make_temporary(create))
-    throw write_error(path_, exists ? "cannot be replaced in its folder" : "cannot be written");
+    throw system_error(path_, errno, exists ? "cannot be replaced in its folder" : kUnwritable);
   if (exists) fchmod(buffer_.descriptor(), static_cast<mode_t>(status.permissions()));
 }
 
@@ -128,13 +135,14 @@ void AtomicFile::commit() {
   const auto name_it = [this](const char* name) {
     return linkat(AT_FDCWD, link().c_str(), folder_.descriptor, name, AT_SYMLINK_FOLLOW) == 0;
   };
-  if (written && !direct && temporary_.empty() && !make_temporary(name_it)) throw write_error(path_);
+  if (written && !direct && temporary_.empty() && !make_temporary(name_it))
+    throw system_error(path_, errno, kUnwritable);
   const bool closed = buffer_.close();
   if (direct && buffer_.error() == EPIPE) return;
-  if (!written || !closed) throw write_error(path_, "cannot be written", buffer_.error());
+  if (!written || !closed) throw system_error(path_, buffer_.error(), kUnwritable);
   if (direct) return;
   if (renameat(folder_.descriptor, temporary_.c_str(), folder_.descriptor, name_.c_str()) != 0)
-    throw write_error(path_, "cannot be replaced");
+    throw system_error(path_, errno, "cannot be replaced");
   temporary_.clear();
 }
 

@@ -27,11 +27,12 @@ class FileBuffer final : public std::streambuf {
   int descriptor_ = -1, error_ = 0;
 };
 
-// Writes to a file without a name in the folder of `path`, and names it on commit(). Where the file system or
-// /proc lacks what that needs, the unfinished file is ".edgewise.*.partial" in that folder. It is removed
-// without commit(), but not if the process is killed. An older file under the final name stays as it is
-// until commit() replaces it, and keeps its permissions. A symbolic link is kept: its target is written, even
-// if that does not exist yet. Devices, pipes and names of open descriptors (/dev/stdout) are written
+// Writes to a file without a name in the folder of `path`. commit() names it ".edgewise.*.partial", then
+// renames it. If the file system has no unnamed files, or /proc is missing, the unfinished file has that name
+// from the start. The destructor removes it unless commit() was called; a killed process leaves it. If the
+// system lets no process name unnamed files, commit() fails. An older file under the final name stays as it
+// is until commit() replaces it, and keeps its permissions. A symbolic link is kept: its target is written,
+// even if that does not exist yet. Devices, pipes and names of open descriptors (/dev/stdout) are written
 // directly.
 class AtomicFile {
  public:
@@ -63,7 +64,8 @@ class AtomicFile {
   std::ostream stream_{&buffer_};
 };
 
-// The file that a path names after its symbolic links, which need not exist. Stops at names of descriptors.
+// The file that a path names after its symbolic links, which need not exist. Stops at names of
+// descriptors, of any process.
 std::filesystem::path after_links(std::filesystem::path path);
 
 }  // namespace edgewise

@@ -5,7 +5,7 @@
 
 namespace edgewise {
 
-// Only that of SSE, as nothing here uses the x87 unit. Its state takes longer to change than a task may last.
+// Saves only MXCSR: the library does not use x87, whose state is slow to change.
 DefaultFloatState::DefaultFloatState() : callers_(_mm_getcsr()) {
   constexpr unsigned kDefault = _MM_MASK_MASK | _MM_ROUND_NEAREST | _MM_FLUSH_ZERO_OFF;
   if ((callers_ & ~unsigned{_MM_EXCEPT_MASK}) != kDefault) _mm_setcsr(kDefault);

@@ -28,13 +28,11 @@ std::size_t largest_cache_bytes(const char* folder) {
 std::size_t llc_bytes() {
   constexpr std::size_t kUnknown = std::size_t{8} << 20;
 #if defined(__linux__)
-  // Not a static that is made once: a child that was forked meanwhile would wait for it for ever.
+  // Not a static that is initialized once: a child forked during that would wait for its lock.
   static constinit std::atomic<std::size_t> known{0};
   if (known == 0) {
-    constexpr std::size_t kLeast = std::size_t{1}
-                                   << 20;  // less is no last level: Linux does not know that one
     const std::size_t bytes = largest_cache_bytes("/sys/devices/system/cpu/cpu0/cache");
-    known = bytes >= kLeast ? bytes : kUnknown;
+    known = bytes >> 20 != 0 ? bytes : kUnknown;  // below 1 MB, Linux does not know the last level
   }
   return known;
 #else

@@ -17,6 +17,12 @@ struct Rows {
   }
 };
 
+// Of a frame's depth or payload.
+template <typename View>
+Rows rows_of(const View& frame, const std::uint32_t* plane) {
+  return {plane, frame.width, frame.height, frame.stride};
+}
+
 // Rows may lie between those of the other plane, as of two pictures side by side, if strides are equal. If
 // not, any shared address counts.
 inline bool overlap(const Rows& a, const Rows& b) {

@@ -24,7 +24,8 @@ namespace edgewise::detail {
 namespace {
 
 // The process that uses oneTBB. A child that it forks has none of oneTBB's workers, but perhaps locks that
-// they held, so nothing may lock before this is read.
+// they held, so nothing may lock before this is read. A child of that child could only be taken for the user
+// if the system gives it the same number again, after the user has ended: then its first draw may hang.
 constinit std::atomic<pid_t> user{0};
 // Threads may draw until the process has ended, but oneTBB's static objects are destroyed soon after this
 // one.

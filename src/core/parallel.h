@@ -15,7 +15,7 @@ void parallel_for(int threads, int count, void (*call)(void*, int), void* contex
 void allow_more_threads_than_cores();
 
 // Calls body(0) … body(count - 1), each once, on up to `threads` threads, and returns when all are done.
-// oneTBB may have fewer, and a forked child gets only the caller's if its parent was here before.
+// oneTBB may have fewer. A forked child whose parent has called this runs everything on the caller's thread.
 // Calls must not write memory that another one accesses. An exception thrown by one is rethrown here.
 template <typename Body>
 void parallel_for(int threads, int count, Body&& body) {

@@ -25,7 +25,8 @@ std::span<const SimdTarget> supported_targets() {
   return supported;
 }
 
-// Made when the library is loaded: a child that is forked while a thread makes it would wait for ever.
+// Initialized when the library is loaded: a child forked during a later initialization would wait for its
+// lock.
 [[maybe_unused]] static const auto kMade = supported_targets();
 
 std::string_view name_of(SimdTarget target) {

@@ -48,11 +48,10 @@ struct BarycentricsView {
 // this costs more.
 //
 // Throws std::invalid_argument
-// - for a frame or view that cannot be read or written, or that overlap in memory, for options of another
-// size than the frame or for
-//   another payload than ids, for a camera, an instance's mesh index or matrix, a thread count, a SIMD target
-//   or a number of triangles or a first id that Frontend::run() throws for, and for flags that are neither
-//   empty nor one per triangle. Then nothing has been written.
+// - for planes that cannot be read or written, or that overlap in memory, for options of another size than
+//   the frame or another payload than ids, for a camera, an instance's mesh index or matrix, a thread count,
+//   a SIMD target or a number of triangles or a first id that Frontend::run() throws for, and for flags that
+//   are neither empty nor one per triangle. Then nothing has been written.
 // - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
 //   frame shows something else. Then the content of the planes is undefined, as it is after std::bad_alloc.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,

@@ -216,19 +216,20 @@ inline constexpr double kPositionError = 0x1p-19;
 // parallel projection, each E_i is multiplied by the depth of vertex i, which is in [0, 1], and divided by
 // w_i.
 //
-// So far w_i counts as exact. In a scene it errs, relatively by e at most, and then each c_k errs by up to e:
-// u changes by u (1 - u) 2 e / (1 - e) at most, and the distance by e / (1 - e). Let D be the vertex's
-// distance from o (rule 10), and Lw the length of w's coefficients, 1 for a Camera and an unscaled instance.
-// In units of 2^-24, the first three terms of w are rounded six times and are at most Lw times the length of
-// d, which is at most 2 D; the fourth is rounded twice and is at most Lw D. The sum is 14 Lw D, hence, while
-// e < 1/16,
-//   e / (1 - e) < 2^-20 Lw D / w
-// under rule 10's condition that o is at most 2^24 D away from the model's origin. Other projections than the
-// usual perspective add 2^-23: their fourth term is w at o larger. A vertex that the clipper placed has e <
-// 2^-48 Lw D / w, where D is that of the farthest corner. With w exact, then,
+// In a scene, w_i is rounded. With a relative error of w of at most e, each c_k errs by up to e:
+// - u changes by u (1 - u) 2 e / (1 - e) at most, and the distance by e / (1 - e).
+// - Let D be the vertex's distance from o (rule 10), and Lw the length of w's coefficients: 1 for a Camera
+// and
+//   an unscaled instance.
+// - In units of 2^-24, the first three terms of w are rounded six times. They are at most Lw times the length
+//   of d, which is at most 2 D. The fourth is rounded twice and is at most Lw D.
+// - The sum is 14 Lw D. So e / (1 - e) < 2^-20 Lw D / w while e < 1/16, and while o is at most 2^24 D away
+//   from the model's origin (rule 10).
+// - Other projections than the usual perspective add 2^-23: their fourth term is w at o larger.
+// - A vertex that the clipper placed has e < 2^-48 Lw D / w, with the D of the farthest corner.
+// So, for the largest D / w of the piece's vertices,
 //   |error of u, v| < 2^-25 + 2^-47 + 2^-21 Lw D / w
 //   |relative error of the distance| < 2^-24 + 2^-48 + 2^-20 Lw D / w
-// for the largest D / w of the piece's vertices.
 inline constexpr double kWError = 0x1p-20;                      // relative, times Lw D / w
 inline constexpr double kBarycentricError = 0x1p-25 + 0x1p-47;  // absolute
 inline constexpr double kDistanceError = 0x1p-24 + 0x1p-48;     // relative, of distances from 2^-126 on

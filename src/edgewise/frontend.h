@@ -1,6 +1,5 @@
 // The front end turns a scene into screen triangles: it transforms, culls, clips, projects, snaps and shades.
-// It is the only part that converts floats to fixed point. It computes in C's default floating-point state,
-// and puts back the caller's.
+// It is the only part that converts floats to fixed point. backend.h says what it does to the process.
 //
 // Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
 // The front of a triangle is the side whose vertices appear clockwise (camera.h).

@@ -45,10 +45,10 @@ DepthMap to_depth_map(const ConstFrameView& frame);  // contract units (rule 6) 
 // - it is malformed, truncated, too long or of another format,
 // - a side is outside 1 … contract::kMaxImageSide,
 // - the picture to write does not have width x height pixels.
-// A written file appears under its name only when it is complete. An older one keeps its permissions. Where
-// the system has no unnamed files, a process that is killed may leave a ".edgewise.*.partial" behind. Of
-// files to read, a named pipe is refused; a pipe that is named as a descriptor (/dev/stdin, /dev/fd/3) is
-// read to its end. No format depends on a locale.
+// A written file appears under its name only when it is complete. An older one keeps its permissions. A
+// process that is killed may leave a ".edgewise.*.partial" behind. Of files to read, a named pipe is refused;
+// a pipe that is named as a descriptor (/dev/stdin, /dev/fd/3) is read to its end. No format depends on a
+// locale.
 
 // PNG or PPM (P6), by the extension .png or .ppm.
 void write_image(const std::filesystem::path& path, const Image& image);
@@ -57,8 +57,8 @@ void write_grey16(const std::filesystem::path& path, const Grey16& image);
 
 // The format is that of the file's content: PNG, PGM and PPM (P2, P3, P5, P6), or PFM with three channels
 // (PF). Samples are read as stored, without colour conversion; alpha is ignored. 16-bit samples v become 255
-// v / 65535, rounded, and those of a PFM 255 v, rounded, between 0 and 255. A PNG that is cut behind its
-// pixels is read, with a warning.
+// v / 65535, rounded, and those of a PFM 255 v, rounded, between 0 and 255. A PNG that
+// ends after its pixels, without IEND, is read with a warning.
 Image read_image(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
 // The same, if the file is grey and no PFM. 8-bit samples v become 257 v.
 Grey16 read_grey16(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);

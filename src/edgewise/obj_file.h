@@ -30,20 +30,22 @@ struct ObjReport {
 
 // A scene of one mesh, with a camera placed by frame_camera.
 // - Polygons of any size are triangulated; their triangles share one normal (face_normal). Faces of one or
-//   two corners are skipped, and those that take more than 200,000,000 steps to fill.
+//   two corners are skipped, and those whose filling would take too long:
+//   the faces of a file share 200,000,000 steps (about 8 s), and 16 for each of their corners.
 // - Negative (relative) indices are resolved.
 // - Windings are reversed: the front is counter-clockwise in OBJ and clockwise here.
 // - A face has the mean colour of its vertices if all have one (v x y z r g b, or v x y z w r g b), or else
-//   its material's Kd, or else light grey. Vertex colours beyond 1 are divided by 255 if the file's are all
-//   whole numbers of 0 to 255, or else clamped. The .mtl files are regular files, sought in the folder of the
-//   OBJ file, or in the current one if that is read from a descriptor. Their paths may have backslashes.
+//   its material's Kd, or else light grey. If all colours of the file are whole numbers of 0 to 255 and one
+//   exceeds 1, they are divided by 255. Otherwise values outside 0 to 1 are clamped. The .mtl files are
+//   regular files, sought in the folder of the OBJ file, or in the current one if that is read from a
+//   descriptor. Their paths may have backslashes.
 // - Objects (o) and groups (g) become Mesh::parts, for objects() in visible.h. A group's name is a word, an
 //   object's or a material's the rest of the line. A '#' belongs to the name, as in "Paint #1".
 // - Positions are read in double. If they are far from 0, more than 4 times the longest side of the box
 //   around them, the mesh holds them relative to an offset near the box's centre, which is Mesh::origin: so
 //   float keeps what the file says. `options` may ask for the offset without the origin.
 // Throws std::runtime_error, with the file's name and the fault, if the file is missing, malformed, without
-// faces or larger than kMaxObjBytes, or if an index is out of range.
+// a face that can be filled or larger than kMaxObjBytes, or if an index is out of range.
 Scene read_obj(const std::filesystem::path& path, const ObjOptions& options = {},
                ObjReport* report = nullptr);
 

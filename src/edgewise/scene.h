@@ -62,8 +62,8 @@ struct Mesh {
   std::vector<MeshCluster> clusters{};
   // For objects() only. Parts may overlap, and several may have one name.
   std::vector<MeshPart> parts{};
-  // Vertex i lies at origin + positions[i]. A mesh far from 0 keeps its shape so, which floats alone would
-  // round away. Finite.
+  // Vertex i lies at origin + positions[i]. Floats alone would round away the shape of a mesh far
+  // from 0. Finite.
   glm::dvec3 origin{0.0};
 
   // Sets `positions` and `origin` from points in double; set `triangles` before. The origin is 0 if floats
@@ -73,7 +73,8 @@ struct Mesh {
   // infinity and points out of float's range do not count, and become positions that are not finite. Clusters
   // and normals must be renewed.
   void set_positions(std::span<const glm::dvec3> points);
-  // Makes `normals` anew, unless it is empty, after a change of positions.
+  // Makes `normals` anew, unless it is empty, after a change of positions. Requires one normal per triangle,
+  // and vertices that exist.
   void renew_normals();
 
   bool has_flag(std::size_t triangle, std::uint8_t flag) const {

@@ -37,8 +37,9 @@ std::vector<std::uint32_t> pixels_per_triangle(const ConstFrameView& ids, std::s
 std::vector<std::size_t> first_ids(const Scene& scene);
 
 // The ids of the triangles of each named part (Mesh::parts), by name and ascending, through all instances.
-// The mask of an object is the pixels of a frame whose ids are among its. Ids begin at 0 here, too. Throws
-// what first_ids() throws, and std::invalid_argument for a part or a scene with too many triangles.
+// An object's mask is the set of pixels whose id is in its list. Ids begin at 0 here, too. Throws
+// what first_ids() throws, and std::invalid_argument for a part that its mesh lacks, or if the scene or its
+// parts together have more than kMaxTriangles.
 std::map<std::string, std::vector<std::uint32_t>> objects(const Scene& scene);
 
 // The number of pixels of each instance, or of all instances of each mesh, in a frame of this scene alone,

@@ -78,30 +78,21 @@ double float_delta(float a, float b) {
   return std::isnan(delta) ? std::numeric_limits<double>::infinity() : delta;
 }
 
-// Samples of `largest`.
-template <typename Channel>
-Difference compare_samples(int width, int height, int largest, const Samples* mask, const Channel& a,
-                           const Channel& b) {
-  return compare(
-      width, height, largest, mask,
-      [&](std::size_t i) {
-        int delta = 0;
-        for (int c = 0; c < 3; ++c) delta = std::max(delta, std::abs(a(i, c) - b(i, c)));
-        return delta;
-      },
-      [&](std::size_t i) { return a(i, 3) != b(i, 3); },
-      [&](std::size_t i) {
-        return static_cast<std::uint32_t>(a(i, 0) + a(i, 1) + a(i, 2)) * kBrightestGrey /
-               (3 * static_cast<std::uint32_t>(largest));
-      });
-}
-
 Difference compare(const Samples& a, const Samples& b, const Samples* mask) {
   const int unit = a.deep || b.deep ? 1 : 257;
-  const auto channel_of = [unit](const Samples& of) {
-    return [&of, unit](std::size_t i, int c) { return of.pixels[i][static_cast<std::size_t>(c)] / unit; };
-  };
-  return compare_samples(a.width, a.height, 65535 / unit, mask, channel_of(a), channel_of(b));
+  return compare(
+      a.width, a.height, 65535 / unit, mask,
+      [&](std::size_t i) {
+        int delta = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+          delta = std::max(delta, std::abs(a.pixels[i][c] - b.pixels[i][c]));
+        return delta / unit;
+      },
+      [&](std::size_t i) { return a.pixels[i][3] != b.pixels[i][3]; },
+      [&](std::size_t i) {
+        const Samples::Pixel& p = a.pixels[i];
+        return (std::uint32_t{p[0]} + p[1] + p[2]) * kBrightestGrey / (3 * 65535);
+      });
 }
 
 // Of a pixel the channel that differs most counts. A single channel is a depth, of which the nearer is
@@ -132,10 +123,7 @@ Difference compare(int width, int height, int channels, const std::vector<float>
 Difference difference(const Image& a, const Image& b) {
   const DefaultFloatState state;
   require_same_size(a, b);
-  const auto channel_of = [](const Image& of) {
-    return [&of](std::size_t i, int c) { return static_cast<int>(of.pixels[i] >> 8 * c & 255); };
-  };
-  return compare_samples(a.width, a.height, 255, nullptr, channel_of(a), channel_of(b));
+  return compare(to_samples(a), to_samples(b), nullptr);
 }
 
 Difference difference(const DepthMap& a, const DepthMap& b) {
@@ -145,6 +133,7 @@ Difference difference(const DepthMap& a, const DepthMap& b) {
 }
 
 Difference difference(const Picture& a, const Picture& b, const Picture* mask) {
+  const DefaultFloatState state;
   const auto* const masks = mask == nullptr ? nullptr : std::get_if<Samples>(mask);
   if (mask != nullptr && masks == nullptr)
     throw std::invalid_argument("a mask must be a picture, not floats");
@@ -170,9 +159,12 @@ Difference difference(const Picture& a, const Picture& b, const Picture* mask) {
 Difference difference(const std::filesystem::path& a, const std::filesystem::path& b,
                       const std::filesystem::path& mask, std::vector<std::string>* warnings) {
   const Picture first = read_picture(a, warnings), second = read_picture(b, warnings);
-  if (mask.empty()) return difference(first, second, nullptr);
-  const Picture masks = read_picture(mask, warnings);
-  return difference(first, second, &masks);
+  const Picture masks = mask.empty() ? Picture() : read_picture(mask, warnings);
+  try {
+    return difference(first, second, mask.empty() ? nullptr : &masks);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(a.string() + " and " + b.string() + ": " + error.what());
+  }
 }
 
 Image enlarge(const Image& image, int factor) {

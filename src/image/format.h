@@ -47,8 +47,9 @@ Picture read_picture(const std::filesystem::path& path, std::vector<std::string>
 // As read_image() and read_grey16() convert them. `path` is for messages.
 Image to_image(const std::filesystem::path& path, const Picture& picture);
 Grey16 to_grey16(const Samples& grey);
+Samples to_samples(const Image& image);  // 8 bits, with alpha
 
-// The formats that need no library and no file; `path` is for messages.
+// The formats that need no library and no file; `path` is for messages. Streams must have the classic locale.
 void write_ppm(std::ostream& out, const Image& image);
 void write_pfm(std::ostream& out, const DepthMap& map);
 Samples read_ppm(const std::filesystem::path& path, InputFile file);

@@ -91,7 +91,7 @@ class PngReader {
       const bool in_pixels = (png_get_io_state(png_) & PNG_IO_CHUNK_HDR) == 0 &&
                              png_get_io_chunk_type(png_) == ('I' << 24 | 'D' << 16 | 'A' << 8 | 'T');
       if (!cut_ || in_pixels) throw;
-      if (warnings != nullptr) warnings->push_back(path_.string() + ": is cut behind its pixels");
+      if (warnings != nullptr) warnings->push_back(path_.string() + ": ends after its pixels, without IEND");
     }
     return image;
   }
@@ -146,7 +146,7 @@ void write_image(const fs::path& path, const Image& image) {
 }
 
 void write_image(const fs::path& path, const Image& image, Format format) {
-  const DefaultFloatState state;  // for libpng
+  const DefaultFloatState state;
   netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
   AtomicFile file(path);
   if (format == Format::png)
@@ -157,7 +157,9 @@ void write_image(const fs::path& path, const Image& image, Format format) {
 }
 
 void write_grey16(const fs::path& path, const Grey16& image) {
-  if (format_of(path) != Format::png) throw file_error(path, "is no .png, as 16-bit grey must be");
+  const DefaultFloatState state;
+  if (format_of(path) != Format::png)
+    throw file_error(path, "is not a .png, the only format for 16-bit grey");
   netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
   AtomicFile file(path);
   write_png(file.stream(), path, image.width, image.height, PNG_FORMAT_LINEAR_Y, image.pixels.data());
@@ -165,6 +167,7 @@ void write_grey16(const fs::path& path, const Grey16& image) {
 }
 
 void write_pfm(const fs::path& path, const DepthMap& map) {
+  const DefaultFloatState state;
   netpbm::check_pixels(path, map.width, map.height, map.depth01.size());
   AtomicFile file(path);
   write_pfm(file.stream(), map);
@@ -172,6 +175,7 @@ void write_pfm(const fs::path& path, const DepthMap& map) {
 }
 
 DepthMap read_pfm(const fs::path& path) {
+  const DefaultFloatState state;
   FloatMap map = read_pfm(path, open_input(path));
   if (map.channels != 1) throw file_error(path, "has three channels; a depth map has one");
   return {map.width, map.height, std::move(map.values)};
@@ -189,6 +193,7 @@ Picture read_picture(const fs::path& path, std::vector<std::string>* warnings) {
 }
 
 Image to_image(const fs::path& path, const Picture& picture) {
+  const DefaultFloatState state;
   if (const auto* const samples = std::get_if<Samples>(&picture)) {
     const auto reduced = [](std::uint16_t sample) { return (sample * 255u + 32767u) / 65535u; };
     Image image{samples->width, samples->height, {}};
@@ -208,6 +213,18 @@ Image to_image(const fs::path& path, const Picture& picture) {
     image.pixels.push_back(
         rgb(reduced(map.values[i]), reduced(map.values[i + 1]), reduced(map.values[i + 2])));
   return image;
+}
+
+Samples to_samples(const Image& image) {
+  Samples samples{image.width, image.height, false, false, {}};
+  samples.pixels.reserve(image.pixels.size());
+  for (const std::uint32_t pixel : image.pixels) {
+    const auto sample = [pixel](int shift) {
+      return static_cast<std::uint16_t>((pixel >> shift & 255) * 257);
+    };
+    samples.pixels.push_back({sample(0), sample(8), sample(16), sample(24)});
+  }
+  return samples;
 }
 
 Image read_image(const fs::path& path, std::vector<std::string>* warnings) {

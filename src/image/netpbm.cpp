@@ -45,7 +45,8 @@ Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_vi
     kind_ = static_cast<char>(kind), end_ = next();
   if (is_blank(end_)) return;
   std::string wanted;
-  for (const char kind : kinds) wanted += (wanted.empty() ? "P" : " or P") + std::string(1, kind);
+  for (const char kind : kinds)
+    wanted += (wanted.empty() ? "P" : kind == kinds.back() ? " or P" : ", P") + std::string(1, kind);
   throw file_error(path_, "does not start with " + wanted);
 }
 

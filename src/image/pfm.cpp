@@ -40,15 +40,13 @@ DepthMap to_depth_map(const ConstFrameView& frame) {
 }
 
 void write_pfm(std::ostream& out, const DepthMap& map) {
-  // A stream would format the size by the host's locale.
-  out << "Pf\n" << std::to_string(map.width) << ' ' << std::to_string(map.height) << "\n-1.0\n";
+  out << "Pf\n" << map.width << ' ' << map.height << "\n-1.0\n";
   const auto row = static_cast<std::size_t>(map.width);
   for (int y = map.height - 1; y >= 0; --y)
     write_words(out, std::as_bytes(std::span(map.depth01).subspan(static_cast<std::size_t>(y) * row, row)));
 }
 
 FloatMap read_pfm(const std::filesystem::path& path, InputFile file) {
-  const DefaultFloatState state;
   netpbm::Reader reader(path, std::move(file), "fF");
   const netpbm::Size size = reader.size();
   const double scale = read_scale(path, reader);

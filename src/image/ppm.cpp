@@ -47,8 +47,7 @@ std::vector<unsigned char> rgb_bytes(const Image& image) {
 
 void write_ppm(std::ostream& out, const Image& image) {
   const std::vector<unsigned char> bytes = rgb_bytes(image);
-  // A stream would format the size by the host's locale.
-  out << "P6\n" << std::to_string(image.width) << ' ' << std::to_string(image.height) << "\n255\n";
+  out << "P6\n" << image.width << ' ' << image.height << "\n255\n";
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 

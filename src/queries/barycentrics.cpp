@@ -212,12 +212,12 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
   if ((out.uv != nullptr && out.uv_stride < 2 * ids.width) ||
       (out.distance != nullptr && out.distance_stride < ids.width))
     throw std::invalid_argument("barycentric coordinates need a stride of at least a row's floats");
-  const Rows depth{ids.depth, ids.width, ids.height, ids.stride},
-      payload{ids.payload, ids.width, ids.height, ids.stride},
-      uv{out.uv, 2 * ids.width, ids.height, out.uv_stride},
+  const Rows uv{out.uv, 2 * ids.width, ids.height, out.uv_stride},
       distance{out.distance, ids.width, ids.height, out.distance_stride};
-  if (overlap(uv, distance) || overlap(uv, depth) || overlap(uv, payload) || overlap(distance, depth) ||
-      overlap(distance, payload))
+  bool overlaps = overlap(uv, distance);
+  for (const std::uint32_t* const plane : {ids.depth, ids.payload})
+    overlaps |= overlap(uv, rows_of(ids, plane)) || overlap(distance, rows_of(ids, plane));
+  if (overlaps)
     throw std::invalid_argument(
         "barycentric coordinates need planes that overlap neither the frame nor each other");
 }

@@ -89,6 +89,12 @@ std::vector<std::size_t> first_ids(const Scene& scene) {
 std::map<std::string, std::vector<std::uint32_t>> objects(const Scene& scene) {
   const std::vector<std::size_t> first = first_ids(scene);
   (void)checked_count(first.back());
+  std::size_t total = 0;  // of their parts
+  for (const Instance& instance : scene.instances)
+    for (const MeshPart& part : mesh_of(scene, instance).parts) total += part.count;
+  if (total > kMaxTriangles)
+    throw std::invalid_argument("parts of " + std::to_string(total) + " triangles together are more than " +
+                                std::to_string(kMaxTriangles));
   std::map<std::string, std::vector<std::uint32_t>> objects;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = mesh_of(scene, scene.instances[i]);

@@ -17,6 +17,8 @@ Execution checked(const FrameView& frame, const Execution& execution) {
     throw std::invalid_argument("frame of " + std::to_string(frame.width) + " x " +
                                 std::to_string(frame.height) + " px, stride " + std::to_string(frame.stride) +
                                 ", cannot be drawn into");
+  if (overlap(rows_of(frame, frame.depth), rows_of(frame, frame.payload)))
+    throw std::invalid_argument("the frame's depth and payload overlap in memory");
   if (execution.threads < 1 || execution.threads > kMaxThreads)
     throw std::invalid_argument(std::to_string(execution.threads) + " threads are outside 1 to " +
                                 std::to_string(kMaxThreads));
@@ -28,11 +30,6 @@ Execution checked(const FrameView& frame, const Execution& execution) {
 }
 
 FramePart checked(const FrameView& frame, const RenderPass& pass) {
-  const auto rows_of = [&](const std::uint32_t* plane) {
-    return Rows{plane, frame.width, frame.height, frame.stride};
-  };
-  if (overlap(rows_of(frame.depth), rows_of(frame.payload)))
-    throw std::invalid_argument("the frame's depth and payload overlap in memory");
   const PixelRect& scissor = pass.scissor;
   if (scissor.width < 0 || scissor.height < 0)
     throw std::invalid_argument("scissor of " + std::to_string(scissor.width) + " x " +

@@ -38,7 +38,8 @@ const BackendInfo& wireframe() {
   return info;
 }
 
-// Made when the library is loaded: a child that is forked while a thread makes them would wait for ever.
+// Initialized when the library is loaded: a child forked during a later initialization would wait for its
+// lock.
 [[maybe_unused]] static const auto kMade = (wireframe(), backends());
 
 }  // namespace edgewise

@@ -28,6 +28,7 @@ namespace {
 
 constexpr std::uint32_t kGrey = rgb(200, 200, 200);
 constexpr std::string_view kBlank = " \t\v\f";
+constexpr std::uint64_t kFillSteps = 200'000'000, kFillStepsOfACorner = 16;
 constexpr double kMostFloat = std::numeric_limits<float>::max();
 
 std::string at_line(std::size_t line, const std::string& reason) {
@@ -214,15 +215,18 @@ class Reader {
     std::vector<std::uint32_t> polygon;
     std::vector<glm::vec3> vertices;
     std::vector<std::size_t> face_triangles;  // by face, its first one
+    std::uint64_t steps_left = kFillSteps;
     for (std::size_t face = 0; face < face_lines_.size(); ++face) {
       polygon.assign(corners_.begin() + at(face), corners_.begin() + at(face + 1));
       const std::size_t first = mesh.triangles.size();
       if (!parts_.empty()) face_triangles.push_back(first);
       try {
-        triangulate(mesh.positions, polygon, mesh.triangles);
+        steps_left += kFillStepsOfACorner * polygon.size();
+        triangulate(mesh.positions, polygon, mesh.triangles, steps_left);
       } catch (const std::invalid_argument& error) {
         mesh.triangles.resize(first);
-        warn(face_lines_[face], std::string("a face is skipped: ") + error.what());
+        warn(face_lines_[face], std::string("a face is skipped: ") + error.what() +
+                                    "; a file's faces may take " + std::to_string(kFillSteps));
         continue;
       }
       std::for_each(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first), mesh.triangles.end(),
@@ -236,6 +240,7 @@ class Reader {
       mesh.flags.resize(first + 1);
       mesh.flags.resize(mesh.triangles.size(), kSameFace);
     }
+    if (mesh.triangles.empty()) throw std::invalid_argument("has no face that can be filled");
     if (!mesh.flags.empty()) {
       mesh.fill_normals(mesh.triangles.size());
       mesh.flags.resize(mesh.triangles.size());

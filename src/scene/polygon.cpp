@@ -15,8 +15,6 @@ namespace edgewise {
 
 namespace {
 
-// Nodes of the tree visited before triangulate() gives up; a few seconds.
-constexpr std::uint64_t kMaxSteps = 200'000'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Projects the polygon along the axis closest to its normal, and makes it counter-clockwise.
@@ -76,8 +74,8 @@ struct Ring {
 
 class EarClipper {
  public:
-  explicit EarClipper(std::vector<glm::dvec2> points)
-      : points_(std::move(points)), ring_(points_.size()), candidates_(ring_) {
+  EarClipper(std::vector<glm::dvec2> points, std::uint64_t& steps_left)
+      : points_(std::move(points)), ring_(points_.size()), candidates_(ring_), steps_left_(steps_left) {
     const auto n = static_cast<std::uint32_t>(points_.size());
     state_.assign(n, State::candidate);
     for (std::uint32_t i = 0; i < n; ++i)
@@ -149,9 +147,10 @@ class EarClipper {
     const auto& [a, b, c, around] = triangle;
     if (tree.empty() || is_right_of(a, b, box) || is_right_of(b, c, box) || is_right_of(c, a, box))
       return false;
-    if (++steps_ > kMaxSteps)
+    if (steps_left_ == 0)
       throw std::invalid_argument("filling its " + std::to_string(points_.size()) +
-                                  " corners takes more than " + std::to_string(kMaxSteps) + " steps");
+                                  " corners takes too many steps");
+    --steps_left_;
     const std::size_t middle = tree.size() / 2;
     const std::uint32_t i = tree[middle];
     const glm::dvec2 p = points_[i];
@@ -169,20 +168,20 @@ class EarClipper {
   std::vector<std::uint32_t> concave_;
   std::vector<State> state_;
   Box box_{glm::dvec2(kInfinity), glm::dvec2(-kInfinity)};  // of the concave corners
-  std::uint64_t steps_ = 0;
+  std::uint64_t& steps_left_;                               // nodes of the tree to visit
 };
 
 }  // namespace
 
 void triangulate(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon,
-                 std::vector<glm::uvec3>& triangles) {
+                 std::vector<glm::uvec3>& triangles, std::uint64_t& steps_left) {
   const auto emit = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     triangles.emplace_back(polygon[a], polygon[b], polygon[c]);
   };
   if (polygon.size() == 3)
     emit(0, 1, 2);
   else
-    EarClipper(flatten(positions, polygon)).run(emit);
+    EarClipper(flatten(positions, polygon), steps_left).run(emit);
 }
 
 void join_cells(Scene& scene) {
@@ -193,7 +192,7 @@ void join_cells(Scene& scene) {
       quads.add_quad({upper.x, upper.y, lower.y, upper.z}, mesh.colours[i]);
     }
     quads.clusters = clusters_of(quads);
-    quads.origin = mesh.origin;
+    quads.parts = std::move(mesh.parts), quads.origin = mesh.origin;
     mesh = std::move(quads);
   }
 }

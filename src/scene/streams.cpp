@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/float_state.h"
+#include "core/number_text.h"
 #include "core/random.h"
 
 namespace edgewise {
@@ -29,7 +30,7 @@ void shuffle(std::vector<StreamTriangle>& triangles, Random& random) {
 
 void check_triangles(double triangles, double scale) {
   if (!(scale > 0.0) || !(triangles <= kMaxStreamTriangles))
-    throw std::invalid_argument("this scale gives no triangle, or more than 10^8");
+    throw std::invalid_argument("scale " + number_text(scale) + " gives no triangle, or more than 10^8");
 }
 
 TriangleStream random_stream(const SceneRequest& request, std::size_t count, double area_px, double aspect,

@@ -36,7 +36,7 @@ void keep_content(const std::string& path) {
   kept.attach(memfd_create("edgewise", MFD_CLOEXEC));
   if (input.size > 0) std::ostream(&kept) << input.stream->rdbuf() << std::flush;
   if (kept.descriptor() < 0 || kept.error() != 0 || dup2(kept.descriptor(), *descriptor_of(path)) < 0)
-    throw system_error(path, errno);
+    throw system_error(path, kept.error() != 0 ? kept.error() : errno);
 }
 
 }  // namespace

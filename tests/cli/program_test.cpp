@@ -405,7 +405,7 @@ TEST_F(ProgramRenders, FilesWhoseSamplesAreEqualOrDiffer) {
   folder_.write("rgb.ppm", "P6 1 1 255 \1\2\3");
   const Outcome alpha = script_in(folder_, "edgewise diff rgba.png rgb.ppm");
   EXPECT_EQ(alpha.out, "equal: 1 pixels; alpha differs in 1 pixels\n");
-  EXPECT_EQ(alpha.err, "warning: rgba.png: is cut behind its pixels\n");
+  EXPECT_EQ(alpha.err, "warning: rgba.png: ends after its pixels, without IEND\n");
   EXPECT_EQ(script_in(folder_, "edgewise diff --json rgba.png rgb.ppm").out,
             "{\"differing\":0,\"differing_in_alpha\":1,\"first\":null,\"largest\":0.0,\"pixels\":1,\"scale\":"
             "255}\n");

@@ -15,6 +15,7 @@
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
+#include "edgewise/visible.h"
 #include "lab/measure.h"
 #include "support.h"
 
@@ -60,6 +61,15 @@ TEST(LimitsDeathTest, TheFrontEndRefusesTooManyTrianglesAndThreads) {
   expect_refused([] { Frontend().run(too_many(), {}); });
   expect_refused([] { Frontend().run(Scene{}, {.threads = kMaxThreads + 1}); });
   expect_refused([] { Frontend().run(Scene{}, {.width = contract::kMaxImageSide + 1}); });
+}
+
+TEST(LimitsDeathTest, ObjectsOfTooManyTrianglesAreRefused) {
+  expect_refused([] {
+    Scene scene = too_many();
+    scene.instances.resize(1);
+    scene.meshes[0].parts.assign(1025, {"a", 0, 1 << 20});
+    (void)objects(scene);
+  });
 }
 
 TEST(LimitsDeathTest, EveryBackendRefusesTooManyTriangles) {

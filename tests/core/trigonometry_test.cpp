@@ -80,12 +80,9 @@ double worst(double (*ours)(double), MpfrFunction theirs) {
   return most;
 }
 
-TEST(Trigonometry, SineAndCosineAreWithinTheirBounds) {
+TEST(Trigonometry, SineCosineAndTangentAreWithinTheirBounds) {
   EXPECT_LE(worst(sine, mpfr_sin), 0.85);
   EXPECT_LE(worst(cosine, mpfr_cos), 0.85);
-}
-
-TEST(Trigonometry, TangentIsWithinItsBound) {
   EXPECT_LE(worst(tangent, mpfr_tan), 2.5);
 }
 

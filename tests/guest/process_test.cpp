@@ -23,6 +23,7 @@
 #include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
 #include "edgewise/builtin.h"
+#include "edgewise/edgewise.h"
 #include "edgewise/frontend.h"
 #include "edgewise/hash.h"
 #include "float_modes.h"
@@ -136,7 +137,12 @@ TEST(ProcessExit, ThreadsAndExitHandlersMayDrawMeanwhile) {
   for (int i = 0; i < 5; ++i)
     EXPECT_EXIT(
         {
-          std::atexit([] { Guest().draw(5); });
+          std::atexit([] {
+            Guest().draw(5);
+            if (edgewise_new_renderer("one more", nullptr) == EDGEWISE_OK)
+              std::abort();  // the thread's error text
+          });
+          edgewise_new_renderer("a name that is longer than a short string", nullptr);
           for (int threads = 2; threads < 5; ++threads)
             std::thread([=] {
               for (Guest guest;;) guest.draw(threads);

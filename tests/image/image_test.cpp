@@ -9,12 +9,14 @@
 #include <iterator>
 #include <limits>
 #include <locale>
-#include <sstream>
+#include <tuple>
 
 #include "core/atomic_file.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
+#include "edgewise/obj_file.h"
 #include "edgewise/scene.h"
+#include "float_modes.h"
 #include "image/format.h"
 #include "message_of.h"
 #include "temp_dir.h"
@@ -34,7 +36,7 @@ Image test_image(int width, int height) {
 
 // ---- Pictures
 
-class ImageFormat : public testing::TestWithParam<const char*> {
+class ImageFormat : public ::testing::TestWithParam<const char*> {
  protected:
   const TempDir dir_;
   const fs::path path_ = dir_.path() / (std::string("a") + GetParam());
@@ -45,9 +47,7 @@ TEST_P(ImageFormat, RoundTripKeepsEveryPixel) {
     const Image image = test_image(width, height);
     write_image(path_, image);
     const Image back = read_image(path_);
-    EXPECT_EQ(back.width, width);
-    EXPECT_EQ(back.height, height);
-    EXPECT_EQ(back.pixels, image.pixels);
+    EXPECT_EQ(std::tie(back.width, back.height, back.pixels), std::tie(width, height, image.pixels));
   }
 }
 
@@ -78,7 +78,7 @@ TEST_P(ImageFormat, WrongPixelCountOrSizeIsNotWritten) {
   EXPECT_EQ(dir_.count(), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, testing::Values(".png", ".ppm", ".PNG"),
+INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, ::testing::Values(".png", ".ppm", ".PNG"),
                          [](const auto& p) { return "Format" + std::to_string(p.index); });
 
 TEST(Ppm, HeaderMayHaveCommentsAndFewerLevels) {
@@ -143,75 +143,48 @@ TEST(Grey16, IsWrittenAsPngAndReadBack) {
   EXPECT_EQ(dir.count(), 3u);
 }
 
-struct BadFile {
-  const char *name, *extension;
-  std::string content, message;
-};
-
-class BadPicture : public testing::TestWithParam<BadFile> {};
-
-TEST_P(BadPicture, IsRefusedWithTheReason) {
+TEST(Picture, MalformedFilesAreRefusedWithTheReason) {
+  using Rows = std::vector<std::pair<std::string, std::string>>;  // content and message
   const TempDir dir;
-  const fs::path path = dir.write(std::string("bad") + GetParam().extension, GetParam().content);
-  const auto read = [&] {
-    if (is_image_path(path))
-      read_image(path);
-    else
-      read_pfm(path);
-  };
-  EXPECT_EQ(message_of(read), path.string() + ": " + GetParam().message);
+  const std::string file = (dir.path() / "bad").string() + ": ";
+  const char* const unknown = "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM";
+  for (const auto& [content, message] :
+       Rows{{"hello, this is no picture", unknown},
+            {"", unknown},
+            {"P61 1 255\n123", "does not start with P2, P3, P5 or P6"},
+            {"P3\n1 1\n255\n1 2\n", "truncated: header promises 3 samples, 4 bytes follow"},
+            {"P3\n1 1\n255\n1   2  \n", "malformed or truncated text"},
+            {"P3\n1 1\n255\n1 2 3\n4", "too long: text follows the last sample"},
+            {"P2\n1 1\n255\n-1\n", "malformed: '-1' is not a sample"},
+            {"P2\n1 1\n255\n256\n", "has a sample of 256, more than its maximum of 255"},
+            {"P2\n1 1\n255", "truncated: header promises 1 samples, 0 bytes follow"},
+            {"P3\n16384 16384\n255\n1 2 3\n", "truncated: header promises 805306368 samples, 6 bytes follow"},
+            {"P5\n2 2\n255\n123", "truncated: header promises 4 bytes, 3 follow"},
+            {"P4\n8 1\n1", unknown},
+            {"P6\n-1 1\n255\n", "malformed: '-1' is not a size"},
+            {"P6\n0 1\n255\n", "image size 0x1 is outside 1 to 16384"},
+            {"P6\n99999999999999999999 1\n255\n", "malformed: '99999999999999999999' is not a size"},
+            {"P6\n" + std::string(100, '1'), "malformed or truncated header"},
+            {"P6\n# no end", "malformed or truncated header"},
+            {"P6\n1 1\n65536\n123456", "the maximum must be 1 to 65535"},
+            {"P6\n1 1\n3\n\1\4\1", "has a sample of 4, more than its maximum of 3"},
+            {"P6\n1 1\n256\n\1\1\1\1\1\1", "has a sample of 257, more than its maximum of 256"},
+            {"P6\n1 1\n255\n1234", "too long: header promises 3 bytes, 4 follow"},
+            {"P6\n1 1\n255\r\n1234", "too long: header promises 3 bytes, 4 follow"},
+            {"P6\n1 1\n255\n\n123", "too long: header promises 3 bytes, 4 follow"},
+            {"P6\r\n1 1\r\n255\r\n12", "truncated: header promises 3 bytes, 2 follow"},
+            {"P6\n16384 16384\n255\n1234", "truncated: header promises 805306368 bytes, 4 follow"},
+            {"Pf\n1 1\n-1.0\n1234", "is a depth map, which read_pfm() reads"}})
+    EXPECT_EQ(message_of([&] { read_image(dir.write("bad", content)); }), file + message);
+  for (const auto& [content, message] :
+       Rows{{"Pf\n1 1\n-1.0\n12345", "too long: header promises 4 bytes, 5 follow"},
+            {"P6\n1 1\n255\n123", "does not start with Pf or PF"},
+            {"PF\n1 1\n-1.0\n123456789012", "has three channels; a depth map has one"},
+            {"Pf\n1 1\n0\n1234", "malformed header: '0' is not a scale"},
+            {"Pf\n1 1\nnan\n1234", "malformed header: 'nan' is not a scale"},
+            {"Pf\n2 1\n-1.0\n1234567", "truncated: header promises 8 bytes, 7 follow"}})
+    EXPECT_EQ(message_of([&] { read_pfm(dir.write("bad", content)); }), file + message);
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Files, BadPicture,
-    testing::Values(
-        BadFile{"PngIsText", ".png", "hello, this is no picture",
-                "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM"},
-        BadFile{"PpmEmpty", ".ppm", "", "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM"},
-        BadFile{"PpmNoBlank", ".ppm", "P61 1 255\n123", "does not start with P2 or P3 or P5 or P6"},
-        BadFile{"PlainTooShort", ".ppm", "P3\n1 1\n255\n1 2\n",
-                "truncated: header promises 3 samples, 4 bytes follow"},
-        BadFile{"PlainLacksASample", ".ppm", "P3\n1 1\n255\n1   2  \n", "malformed or truncated text"},
-        BadFile{"PlainTooLong", ".ppm", "P3\n1 1\n255\n1 2 3\n4", "too long: text follows the last sample"},
-        BadFile{"PlainNegative", ".ppm", "P2\n1 1\n255\n-1\n", "malformed: '-1' is not a sample"},
-        BadFile{"PlainTooLarge", ".ppm", "P2\n1 1\n255\n256\n",
-                "has a sample of 256, more than its maximum of 255"},
-        BadFile{"PlainEndsInItsHeader", ".ppm", "P2\n1 1\n255",
-                "truncated: header promises 1 samples, 0 bytes follow"},
-        BadFile{"PlainPromisesTooMuch", ".ppm", "P3\n16384 16384\n255\n1 2 3\n",
-                "truncated: header promises 805306368 samples, 6 bytes follow"},
-        BadFile{"PgmTruncated", ".ppm", "P5\n2 2\n255\n123", "truncated: header promises 4 bytes, 3 follow"},
-        BadFile{"Bitmap", ".ppm", "P4\n8 1\n1", "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM"},
-        BadFile{"PpmNegative", ".ppm", "P6\n-1 1\n255\n", "malformed: '-1' is not a size"},
-        BadFile{"PpmZero", ".ppm", "P6\n0 1\n255\n", "image size 0x1 is outside 1 to 16384"},
-        BadFile{"PpmBeyond64Bits", ".ppm", "P6\n99999999999999999999 1\n255\n",
-                "malformed: '99999999999999999999' is not a size"},
-        BadFile{"PpmEndlessWord", ".ppm", "P6\n" + std::string(100, '1'), "malformed or truncated header"},
-        BadFile{"PpmOpenComment", ".ppm", "P6\n# no end", "malformed or truncated header"},
-        BadFile{"Ppm17Bits", ".ppm", "P6\n1 1\n65536\n123456", "the maximum must be 1 to 65535"},
-        BadFile{"PpmSampleTooLarge", ".ppm", "P6\n1 1\n3\n\1\4\1",
-                "has a sample of 4, more than its maximum of 3"},
-        BadFile{"PpmDeepSampleTooLarge", ".ppm", "P6\n1 1\n256\n\1\1\1\1\1\1",
-                "has a sample of 257, more than its maximum of 256"},
-        BadFile{"PpmTooLong", ".ppm", "P6\n1 1\n255\n1234", "too long: header promises 3 bytes, 4 follow"},
-        BadFile{"PpmCrLfTooLong", ".ppm", "P6\n1 1\n255\r\n1234",
-                "too long: header promises 3 bytes, 4 follow"},
-        BadFile{"PpmLfLfTooLong", ".ppm", "P6\n1 1\n255\n\n123",
-                "too long: header promises 3 bytes, 4 follow"},
-        BadFile{"PpmCrLfLacksOneByte", ".ppm", "P6\r\n1 1\r\n255\r\n12",
-                "truncated: header promises 3 bytes, 2 follow"},
-        BadFile{"PfmTooLong", ".pfm", "Pf\n1 1\n-1.0\n12345", "too long: header promises 4 bytes, 5 follow"},
-        BadFile{"PpmTruncated", ".ppm", "P6\n16384 16384\n255\n1234",
-                "truncated: header promises 805306368 bytes, 4 follow"},
-        BadFile{"PfmIsPpm", ".pfm", "P6\n1 1\n255\n123", "does not start with Pf or PF"},
-        BadFile{"PfmColour", ".pfm", "PF\n1 1\n-1.0\n123456789012",
-                "has three channels; a depth map has one"},
-        BadFile{"PfmDepthAsPicture", ".ppm", "Pf\n1 1\n-1.0\n1234", "is a depth map, which read_pfm() reads"},
-        BadFile{"PfmScaleZero", ".pfm", "Pf\n1 1\n0\n1234", "malformed header: '0' is not a scale"},
-        BadFile{"PfmScaleText", ".pfm", "Pf\n1 1\nnan\n1234", "malformed header: 'nan' is not a scale"},
-        BadFile{"PfmTruncated", ".pfm", "Pf\n2 1\n-1.0\n1234567",
-                "truncated: header promises 8 bytes, 7 follow"}),
-    [](const auto& p) { return std::string(p.param.name); });
 
 TEST(Picture, UnknownExtensionIsNotWritten) {
   EXPECT_EQ(message_of([] { write_image("a", test_image(1, 1)); }), "a: is neither a .png nor a .ppm");
@@ -366,8 +339,9 @@ struct GroupedNumbers : std::numpunct<char> {
 
 TEST(Locale, OfTheHostChangesNoFile) {
   const TempDir dir;
+  const fs::path ppm = dir.path() / "a.PPM", pfm = dir.path() / "a.pfm", text = dir.path() / "a",
+                 bad = dir.write("b.obj", std::string(2000, '\n') + "v 1,5 0 0\n");
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new GroupedNumbers));
-  const fs::path ppm = dir.path() / "a.PPM", pfm = dir.path() / "a.pfm", text = dir.path() / "a";
   const Image image = test_image(1280, 2);
   const DepthMap map{1280, 2, std::vector<float>(2560, 0.5f)};
   write_image(ppm, image);
@@ -375,15 +349,40 @@ TEST(Locale, OfTheHostChangesNoFile) {
   AtomicFile file(text);
   file.stream() << 1234.5;
   file.commit();
-  std::ostringstream stream;
-  write_ppm(stream, image);
   EXPECT_EQ(read_image(ppm).pixels, image.pixels);
   EXPECT_EQ(read_pfm(pfm).depth01, map.depth01);
+  const Scene scene =
+      read_obj(dir.write("a.obj", "v 1234.5 0.25 1e-400\nv 12345 1.e1 0\nv 0 1 0\nf 1 2 3\n"));
+  EXPECT_EQ(scene.meshes[0].positions,
+            (std::vector<glm::vec3>{{1234.5, 0.25, 0}, {12345, 10, 0}, {0, 1, 0}}));
+  const std::string message = message_of([&] { read_obj(bad); });
   std::locale::global(before);
+  EXPECT_EQ(message, bad.string() + ": line 2001: '1,5' is not a finite coordinate");
   EXPECT_TRUE(file_content(ppm).starts_with("P6\n1280 2\n255\n"));
-  EXPECT_EQ(stream.str(), file_content(ppm));
   EXPECT_TRUE(file_content(pfm).starts_with("Pf\n1280 2\n-1.0\n"));
   EXPECT_EQ(file_content(text), "1234.5");
+}
+
+// ---- The caller's floating-point state
+
+TEST(FloatMode, ChangesNoPictureOfAFile) {
+  const TempDir dir;
+  std::string pfm = std::endian::native == std::endian::little ? "PF\n2 1\n-1\n" : "PF\n2 1\n1\n";
+  for (const float value : {std::nanf(""), 0.1f, 0.3f, 1e-40f, 0.7f, 2.0f})
+    pfm.append(std::begin(std::bit_cast<std::array<char, 4>>(value)), 4);
+  const fs::path file = dir.write("a.pfm", pfm), png = dir.path() / "a.png", depth = dir.path() / "b.pfm";
+  testing::expect_same_in_every_float_mode([&](int) {
+    const Image image = read_image(file);
+    write_image(png, image);
+    std::string found = file_content(png);
+    write_grey16(png, {2, 1, {7, 65535}});
+    found += file_content(png) +
+             std::string(read_grey16(png).pixels == std::vector<std::uint16_t>{7, 65535} ? "y" : "n");
+    write_pfm(depth, {2, 1, {0.1f, std::nanf("")}});
+    const Difference d = difference(image, read_image(png));
+    return std::tuple(found, file_content(depth), image.pixels, d.picture.pixels, d.largest,
+                      difference(read_pfm(depth), read_pfm(depth)).count);
+  });
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace edgewise {
 namespace {
 
 using Colours = std::vector<std::uint32_t>;
+
 // `usemtl` and `newmtl` agree on names, and on which ones differ.
 TEST(ObjFile, MaterialNamesAreTheRestOfTheLine) {
   const std::vector<std::string> names = {"Paint #1",   "Paint #2", "Paint",     "a#b",
