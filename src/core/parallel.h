@@ -7,8 +7,10 @@
 namespace edgewise {
 
 namespace detail {
-void parallel_for(int threads, int count, void (*call)(void*, int), void* context);
-}
+// A pointer, so that two copies of the library in one process can share one (src/python/laboratory.cpp): a
+// forked child must know of every use of oneTBB by its parent.
+extern void (*parallel_for)(int threads, int count, void (*call)(void*, int), void* context);
+}  // namespace detail
 
 // Lets oneTBB start more threads than there are cores, for the rest of the process. For programs that want
 // it: the library leaves such limits to them.
