@@ -99,7 +99,7 @@ void run(int threads, int count, void (*call)(void*, int), void* context) {
 
 }  // namespace
 
-constinit void (*parallel_for)(int, int, void (*)(void*, int), void*) = run;
+constinit ParallelFor parallel_for = run;
 
 }  // namespace edgewise::detail
 
@@ -111,7 +111,7 @@ void edgewise::allow_more_threads_than_cores() {
 
 #else
 
-constinit void (*edgewise::detail::parallel_for)(int, int, void (*)(void*, int), void*) =
+constinit edgewise::detail::ParallelFor edgewise::detail::parallel_for =
     [](int, int count, void (*call)(void*, int), void* context) {
       for (int i = 0; i < count; ++i) call(context, i);
     };

@@ -92,7 +92,7 @@ Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& pro
 PYBIND11_MODULE(_lab, m) {
   // This extension has a copy of the library.
   const py::capsule of_native = py::module_::import("edgewise._native").attr("PARALLEL_FOR");
-  detail::parallel_for = *of_native.get_pointer<decltype(detail::parallel_for)>();
+  detail::parallel_for = *of_native.get_pointer<detail::ParallelFor>();
   py::list reasons;
   for (int i = 0; i < lab::kUnstableKinds; ++i)
     reasons.append(std::string(name_of(static_cast<lab::Unstable>(i))));

@@ -154,9 +154,9 @@ def amodal_masks(self: edgewise.Scene, camera: Camera | Sequence[Camera], size: 
     """The pixels that each instance would cover if it were alone: shape (instances, height, width) or (views, instances,
     height, width). Arguments as for draw(). Draws each instance once per camera; progress() counts these draws."""
     width, height = _check.size(size)
-    cameras = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
-    masks = list(_alone(self, cameras, (width, height), cull, threads, progress))
-    several = () if isinstance(cameras, Camera) else (len(cameras),)
+    camera = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
+    masks = list(_alone(self, camera, (width, height), cull, threads, progress))
+    several = () if isinstance(camera, Camera) else (len(camera),)
     return np.stack(masks, axis=-3) if masks else np.empty((*several, 0, height, width), np.bool_)
 
 
@@ -168,13 +168,13 @@ def visible_fraction(self: edgewise.Scene, frame: Frame, camera: Camera | Sequen
     frame, camera and cull: of one draw of ids from 0 on, of this scene alone. progress: as for amodal_masks().
     """
     frame = _check.frame(frame)
-    cameras = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
-    height, width = frame.depth.shape[-2:]
+    camera = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
     visible = self.pixels_per_instance(frame)
-    alone = [mask.sum(axis=(-2, -1)) for mask in _alone(self, cameras, (width, height), cull, threads, progress)]
+    height, width = frame.depth.shape[-2:]
+    alone = [mask.sum(axis=(-2, -1)) for mask in _alone(self, camera, (width, height), cull, threads, progress)]
     whole = np.stack(alone, axis=-1) if alone else np.zeros(visible.shape)
     if whole.shape != visible.shape:
-        raise ValueError(f"the frame has the shape {frame.depth.shape}, for {len(_check.cameras(cameras, 'camera'))} cameras")
+        raise ValueError(f"the frame has the shape {frame.depth.shape}, for {len(_check.cameras(camera, 'camera'))} cameras")
     return visible / np.maximum(whole, 1)
 
 
