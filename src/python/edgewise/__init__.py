@@ -156,8 +156,8 @@ def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int6
 class _Drawable:
     """What scenes and streams share. They keep the memory of their draws, so later ones are faster than the first.
 
-    Several threads may use one; its draws take turns. Several of them draw at the same time. A forked child may use it, unless a
-    thread of its parent was changing it; after a draw on several threads by the parent, the child draws on one.
+    Several threads may use one; its draws take turns. Two scenes or streams draw at the same time. A forked child may use it
+    unless a thread of its parent was changing it. After a draw of its parent on several threads, a child draws on one.
     copy.copy(), copy.deepcopy() and pickle make another one that holds the same and draws the same.
     """
     _native: Any
@@ -303,8 +303,8 @@ class Scene(_Drawable):
         backend: one of BACKENDS, which draw the same picture.
         background: the payload of pixels that no triangle covers; by default BACKGROUND_ID or BLACK.
         scissor: x, y, width, height, the only pixels to draw. The others keep what `onto` holds, or are background.
-        onto: a frame that is drawn over, as if both draws were one, and returned as a new Frame of the same arrays. Rows must be
-          contiguous, views must not overlap, and payload and depth have the same strides. Unless it is cleared, no depth
+        onto: a frame that is drawn over, as if both draws were one, and returned as a new Frame of the same arrays. Rows must
+          be contiguous, views must not overlap, and payload and depth have the same strides. Unless it is cleared, no depth
           may exceed DEPTH_CLEAR.
         clear: clears `onto` first, inside the scissor.
         depth_only: neither makes nor writes payloads.

@@ -120,7 +120,8 @@ def metric_depth(frame: Frame, camera: Camera | Sequence[Camera]) -> NDArray[np.
             except np.linalg.LinAlgError:
                 raise ValueError("a camera's matrix has no inverse") from None
             with np.errstate(divide="ignore"):
-                distances[i] = 1 / ((to_world[0] * x + to_world[1] * y + to_world[2] * stacked[i] + to_world[3]) * np.linalg.norm(to_w))
+                of_w = to_world[0] * x + to_world[1] * y + to_world[2] * stacked[i] + to_world[3]
+                distances[i] = 1 / (of_w * np.linalg.norm(to_w))
         else:
             distances[i] = (stacked[i] * projection[3, 3] - projection[2, 3]) / np.linalg.norm(to_z)
     result[depth == DEPTH_CLEAR] = np.inf
