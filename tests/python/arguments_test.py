@@ -75,11 +75,11 @@ def test_a_wrong_type_is_refused_by_the_arguments_name(function, parameter):
         with pytest.raises((TypeError, ValueError)) as raised:
             function(**{**allowed, parameter.name: bad})
         text = str(raised.value)
-        assert re.match(rf"{parameter.name}\b", text) and "\n" not in text and len(text) < 200, (bad, text)
+        assert re.search(rf"\b{parameter.name}\b", text) and "\n" not in text and len(text) < 200, (bad, text)
 
 
 LOSSES = {
-    "float32 beyond its range": ("positions .* 1e\\+39", lambda: edgewise.Scene(np.full((180, 3), 1e39), INDICES)),
+    "float32 beyond its range": ("vertices .* 1e\\+39", lambda: edgewise.Stream(np.full((1, 3, 3), 1e39), SIZE)),
     "indices of 33 bits": ("triangles .* not 4294967296$", lambda: edgewise.Scene(POSITIONS, INDICES.astype(np.int64) + (1 << 32))),
     "indices of 64 bits": ("triangles .* not 18446744073709551615$", lambda: edgewise.Scene(POSITIONS, ~INDICES.astype(np.uint64))),
     "numbers of 80 bits": (r"matrix .*float\d+", lambda: scene().set_instance(0, np.eye(4, dtype=np.longdouble))),

@@ -73,7 +73,7 @@ CASES = {
     "orthographic NaN": ("near < far, not nan", lambda: edgewise.orthographic(-1, 1, -1, 1, math.nan, 0.5)),
     "k of 2 rows": ("k must", lambda: edgewise.intrinsics(IDENTITY[:2, :3], 4, 4, 1)),
     "projection of 3 rows": ("projection", lambda: edgewise.projection_from(IDENTITY[:3])),
-    "view of 3 rows": ("views", lambda: scene().draw(edgewise.Camera(IDENTITY[:3], IDENTITY), SIZE)),
+    "view of 3 rows": ("camera.view must have the shape", lambda: scene().draw(edgewise.Camera(IDENTITY[:3], IDENTITY), SIZE)),
     "singular view": ("inverse", lambda: scene().draw(edgewise.Camera(np.zeros((4, 4)), IDENTITY), SIZE)),
     "size 0": (r"size\[0\] must be an integer from 1 to 16384, not 0", lambda: scene().draw(CAMERA, (0, 5))),
     "negative size": (r"size\[1\] .* not -5", lambda: scene().draw(CAMERA, (5, -5))),

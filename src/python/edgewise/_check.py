@@ -136,8 +136,12 @@ def cameras(values: Any, name: str) -> list[edgewise.Camera]:
 
 
 def matrices(given: list[edgewise.Camera]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    return (array([as_array(one.view, "camera.view") for one in given], "camera.view", np.float64),
-            array([as_array(one.projection, "camera.projection") for one in given], "camera.projection", np.float64))
+    def stack(name: str, of_views: list[Any]) -> NDArray[np.float64]:
+        made = array([as_array(matrix, name) for matrix in of_views], name, np.float64)
+        if given and made.shape[1:] != (4, 4):
+            raise ValueError(f"{name} must have the shape (4, 4), not {made.shape[1:]}")
+        return made
+    return stack("camera.view", [one.view for one in given]), stack("camera.projection", [one.projection for one in given])
 
 
 def frame(value: Any, name: str = "frame") -> edgewise.Frame:

@@ -44,8 +44,8 @@ def write_image(path: _Path, colours: ArrayLike) -> None:
     colours: shape (height, width), uint32, 0xAABBGGRR, or (height, width, 3 or 4), uint8: R, G, B; alpha is ignored. Or
     (height, width), uint16: 16-bit grey. ValueError for other types, OSError for a file that cannot be written.
     """
-    picture = _picture(colours, "colours")
-    (_native.write_grey16 if picture.dtype == np.uint16 else _native.write_colours)(_check.path(path, "path"), picture)
+    path, picture = _check.path(path, "path"), _picture(colours, "colours")
+    (_native.write_grey16 if picture.dtype == np.uint16 else _native.write_colours)(path, picture)
 
 
 def read_pfm(path: _Path) -> NDArray[np.float32]:
@@ -62,9 +62,10 @@ def write_pfm(path: _Path, depth: ArrayLike) -> None:
     depth: shape (height, width), floats of up to 64 bits. ValueError for other types and for floats beyond float32's range,
     OSError for a file that cannot be written.
     """
+    path = _check.path(path, "path")
     if (dtype := _check.as_array(depth, "depth").dtype).kind != "f":
-        raise ValueError(f"depths must be floats, not {dtype}; of a frame's depths, write depth01(depth)")
-    _native.write_pfm(_check.path(path, "path"), _check.array(depth, "depth", np.float32))
+        raise ValueError(f"depth must be floats, not {dtype}; of a frame's depths, write depth01(depth)")
+    _native.write_pfm(path, _check.array(depth, "depth", np.float32))
 
 
 def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | None = None) -> Difference:
@@ -118,8 +119,8 @@ def _mask(mask: Any) -> Any:
     array = _check.as_array(mask, "mask")
     if array.dtype == np.uint32 or array.dtype == np.uint8 and array.ndim == 3:
         return colours(array, "mask")
-    if array.dtype.kind not in "biuf":
-        raise ValueError(f"mask must be numbers, not {array.dtype}")
+    if array.dtype.kind not in "biuf" or array.ndim != 2:
+        raise ValueError(f"mask must be numbers of shape (height, width), not {array.dtype} of shape {array.shape}")
     return np.where(array != 0, np.uint32(0xFFFFFFFF), np.uint32(BLACK))
 
 
