@@ -79,9 +79,7 @@ class Section {
 #endif
 };
 
-}  // namespace
-
-void parallel_for(int threads, int count, void (*call)(void*, int), void* context) {
+void run(int threads, int count, void (*call)(void*, int), void* context) {
   if (!may_use_tbb()) {
     for (int i = 0; i < count; ++i) call(context, i);
     return;
@@ -100,6 +98,10 @@ void parallel_for(int threads, int count, void (*call)(void*, int), void* contex
   });
 }
 
+}  // namespace
+
+constinit ParallelFor parallel_for = run;
+
 }  // namespace edgewise::detail
 
 void edgewise::allow_more_threads_than_cores() {
@@ -110,9 +112,10 @@ void edgewise::allow_more_threads_than_cores() {
 
 #else
 
-void edgewise::detail::parallel_for(int, int count, void (*call)(void*, int), void* context) {
-  for (int i = 0; i < count; ++i) call(context, i);
-}
+constinit edgewise::detail::ParallelFor edgewise::detail::parallel_for =
+    [](int, int count, void (*call)(void*, int), void* context) {
+      for (int i = 0; i < count; ++i) call(context, i);
+    };
 
 void edgewise::allow_more_threads_than_cores() {}
 

@@ -7,8 +7,11 @@
 namespace edgewise {
 
 namespace detail {
-void parallel_for(int threads, int count, void (*call)(void*, int), void* context);
-}
+// A pointer, so that two copies of the library in one process can share one (src/python/laboratory.cpp): a
+// forked child must know of every use of oneTBB by its parent.
+using ParallelFor = void (*)(int threads, int count, void (*call)(void*, int), void* context);
+extern ParallelFor parallel_for;
+}  // namespace detail
 
 // Lets oneTBB start more threads than there are cores, for the rest of the process. For programs that want
 // it: the library leaves such limits to them.

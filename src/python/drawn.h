@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -35,7 +34,6 @@
 namespace edgewise::python {
 
 using Path = std::filesystem::path;
-using Counts = std::array<std::uint64_t, sizeof(FrontendStats) / sizeof(std::uint64_t)>;
 
 inline Cull cull_of(std::string_view name) {
   return find_named("culling mode", name, cull_modes(), [](Cull cull) { return name_of(cull); });
@@ -48,6 +46,16 @@ inline FrontendOptions options_of(int width, int height, std::string_view cull, 
   options.payload = Payload::id;
   options.threads = threads;
   return options;
+}
+
+inline py::dict counts_of(const FrontendStats& s) {
+  using py::literals::operator""_a;
+  return py::dict("meshes"_a = s.meshes, "meshes_culled"_a = s.meshes_culled, "triangles"_a = s.triangles,
+                  "whole_mesh"_a = s.whole_mesh, "not_finite"_a = s.not_finite, "outside"_a = s.outside,
+                  "not_in_front"_a = s.not_in_front, "clipped"_a = s.clipped,
+                  "clipped_near"_a = s.clipped_near, "clipped_far"_a = s.clipped_far,
+                  "clipped_guard"_a = s.clipped_guard, "pieces"_a = s.pieces, "culled"_a = s.culled,
+                  "zero_area"_a = s.zero_area, "emitted"_a = s.emitted);
 }
 
 // Text that may hold bytes of a file or of its name.
@@ -105,9 +113,10 @@ class Drawn {
   template <typename F>
   void for_each_view(const std::vector<CameraMatrices>& cameras, std::size_t views, F&& f,
                      const py::object& progress = py::none()) {
-    if (std::holds_alternative<Scene>(drawable_) && cameras.size() != views)
-      throw std::invalid_argument(std::to_string(cameras.size()) + " cameras for " + std::to_string(views) +
-                                  " views");
+    const bool is_scene = std::holds_alternative<Scene>(drawable_);
+    if (cameras.size() != (is_scene ? views : 0))
+      throw std::invalid_argument(std::to_string(cameras.size()) + " cameras for " +
+                                  (is_scene ? std::to_string(views) + " views" : "a stream"));
     for (std::size_t next = 0; next < views;) {
       const std::size_t first = next;
       use([&](Drawable& drawable) {
@@ -123,11 +132,11 @@ class Drawn {
     }
   }
 
-  // Returns the counts of edgewise.Stats, summed over the views.
-  Counts draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
-              const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull, int threads,
-              bool shade, const std::string& backend, std::uint32_t background, bool clear,
-              const std::optional<std::array<int, 4>>& scissor, const py::object& progress) {
+  // Returns the counts of edgewise.Stats by name, summed over the views.
+  py::dict draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
+                const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull,
+                int threads, bool shade, const std::string& backend, std::uint32_t background, bool clear,
+                const std::optional<std::array<int, 4>>& scissor, const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, true);
     FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
@@ -138,18 +147,20 @@ class Drawn {
     if (scissor) pass.scissor = {(*scissor)[0], (*scissor)[1], (*scissor)[2], (*scissor)[3]};
     FrontendStats stats;
     const auto draw_view = [&](const Drawable& drawable, std::size_t i) {
+      const BackendInfo& found = find_backend(backend);
       auto& made = drawer_->backends[backend];
-      if (made == nullptr) made = find_backend(backend).make();
+      if (made == nullptr) made = found.make();
       edgewise::draw(drawable, drawer_->frontend, options, *made, frames[i], pass, {.threads = threads});
       stats += drawer_->frontend.stats();
     };
     for_each_view(cameras, frames.views, draw_view, progress);
-    return std::bit_cast<Counts>(stats);
+    return counts_of(stats);
   }
 
   py::tuple barycentrics(const Matrix& views, const Matrix& projections,
                          const std::optional<py::array>& payload, const py::array& depth,
-                         std::uint32_t first_id, const std::string& cull, int threads) {
+                         std::uint32_t first_id, const std::string& cull, int threads,
+                         const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, false);
     FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
@@ -159,10 +170,11 @@ class Drawn {
     float *const uvs = uv.mutable_data(), *const distances = distance.mutable_data();
     const std::size_t pixels =
         static_cast<std::size_t>(frames.width) * static_cast<std::size_t>(frames.height);
-    for_each_view(cameras, frames.views, [&](const Drawable& drawable, std::size_t i) {
+    const auto fill_view = [&](const Drawable& drawable, std::size_t i) {
       edgewise::barycentrics(frames[i], drawable, options,
                              {uvs + 2 * pixels * i, 2 * frames.width, distances + pixels * i, frames.width});
-    });
+    };
+    for_each_view(cameras, frames.views, fill_view, progress);
     return py::make_tuple(uv, distance);
   }
 

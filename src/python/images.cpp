@@ -39,7 +39,10 @@ Samples samples_of(const Words& colours) {
 Samples samples_of(const Shorts& grey) {
   check(grey, "a picture of 16-bit grey", {-1, -1});
   Samples samples{side(grey.shape(1)), side(grey.shape(0)), true, true, {}};
-  for (const std::uint16_t g : copied<std::uint16_t>(grey)) samples.pixels.push_back({g, g, g, 65535});
+  const auto pixels = copied<std::uint16_t>(grey);
+  const Released released;
+  samples.pixels.reserve(pixels.size());
+  for (const std::uint16_t g : pixels) samples.pixels.push_back({g, g, g, 65535});
   return samples;
 }
 
@@ -72,8 +75,9 @@ py::tuple diff(const From& a_from, const From& b_from, const std::optional<From>
   }();
   const py::object first =
       d.count == 0 ? py::object(py::none()) : py::object(py::make_tuple(d.first_x, d.first_y));
-  return py::make_tuple(d.count, d.largest, d.scale, first, d.masked, d.masked_count, d.alpha_count,
-                        as_array(d.picture.pixels, d.picture.width, d.picture.height), texts_of(notes));
+  return py::make_tuple(d.count, d.largest, d.scale, first, d.masked, d.masked_count,
+                        as_array(d.picture.pixels, d.picture.width, d.picture.height), d.alpha_count,
+                        texts_of(notes));
 }
 
 // 16-bit grey stays what it is.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/parallel.h"
 #include "frontend/submission.h"
 #include "lab/needs/needs.h"
 #include "lab/portable/portable.h"
@@ -52,6 +53,7 @@ py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int
     found.add(lab::with_camera(drawable, {width, height}), options);
   };
   self.for_each_view(cameras, std::max<std::size_t>(cameras.size(), 1), add, progress);
+  const DefaultFloatState state;
   {
     const Released released;
     least = found.least_precise();
@@ -88,6 +90,9 @@ Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& pro
 }  // namespace
 
 PYBIND11_MODULE(_lab, m) {
+  // This extension has a copy of the library.
+  const py::capsule of_native = py::module_::import("edgewise._native").attr("PARALLEL_FOR");
+  detail::parallel_for = *of_native.get_pointer<detail::ParallelFor>();
   py::list reasons;
   for (int i = 0; i < lab::kUnstableKinds; ++i)
     reasons.append(std::string(name_of(static_cast<lab::Unstable>(i))));

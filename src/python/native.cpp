@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 #include "edgewise/backend.h"
 #include "edgewise/camera.h"
 #include "edgewise/contract.h"
@@ -94,6 +95,8 @@ PYBIND11_MODULE(_native, m) {
   py::list names;
   for (const BackendInfo& backend : backends()) names.append(std::string(backend.name));
   m.attr("BACKENDS") = names;
+  m.attr("TWO_SIDED") = kTwoSided;
+  m.attr("PARALLEL_FOR") = py::capsule(&detail::parallel_for);
 
   m.def("perspective", [](double fov_y, double aspect, double near_z, double far_z) {
     return rows_of(perspective_projection(fov_y, aspect, near_z, far_z));

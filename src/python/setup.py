@@ -49,12 +49,12 @@ class Archive(sdist):
         shutil.copytree(ROOT / "src", Path(base_dir) / "src", ignore=shutil.ignore_patterns("__pycache__", "*.so", "*.egg-info", base_dir))
         for file in (ROOT / "CMakeLists.txt", HERE / "pyproject.toml", HERE / "setup.py"):
             shutil.copy2(file, base_dir)
+        self.distribution.metadata.write_pkg_info(base_dir)
 
 
-licence = (ROOT / "src" / "package" / "LICENSE").read_text(encoding="utf-8")
 version = re.search(r"project\(edgewise VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 folder = build_folder()  # nothing is written into the source tree
-setup(version=version, license=licence, packages=["edgewise"], package_data={"edgewise": ["py.typed", "*.pyi"]},
+setup(version=version, license="MIT", packages=["edgewise"], package_data={"edgewise": ["py.typed", "*.pyi"]},
       package_dir={"edgewise": os.path.relpath(ROOT / "src" / "python" / "edgewise", HERE)},
       ext_modules=[Extension("edgewise._native", [])],  # and edgewise._lab, if its packages are there
       cmdclass={"build_ext": CMake, "sdist": Archive},

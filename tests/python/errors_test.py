@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import edgewise
+import edgewise.lab
 from support import CAMERA, SIZE, same, scene, stream, triangles
 
 WIDTH, HEIGHT = SIZE
@@ -23,6 +24,10 @@ def read_only(array):
 
 def onto(payload, depth, camera=CAMERA, **options):
     return lambda: scene().draw(camera, SIZE, onto=edgewise.Frame(payload, depth), **options)
+
+
+def frame_of(drawn, cameras=CAMERA, **options):
+    return drawn.draw(cameras, SIZE, **{"ids": True, **options})
 
 
 def twice(make):
@@ -48,7 +53,11 @@ CASES = {
     "translation in the last row": ("last row 0 0 0 1", lambda: scene().add_instance(0, SHIFTED.T)),
     "instance of NaN": ("finite", lambda: scene().set_instance(0, IDENTITY * np.nan)),
     "grey of uint8": ("uint8", lambda: edgewise.Scene(POSITIONS, INDICES, colours=np.zeros(len(INDICES), np.uint8))),
-    "colour of 33 bits": ("outside 0", lambda: edgewise.Scene(POSITIONS, INDICES, colours=COLOURS.astype(np.int64) + (1 << 32))),
+    "colour of 33 bits": ("colours .* range of uint32, not ", lambda: edgewise.Scene(POSITIONS, INDICES, colours=[1 << 32] * len(INDICES))),
+    "colours of int64": ("colours .* not int64", lambda: edgewise.Scene(POSITIONS, INDICES, colours=COLOURS.astype(np.int64))),
+    "masked colours": ("colours .* mask", lambda: edgewise.Scene(POSITIONS, INDICES, colours=np.ma.masked_less(COLOURS, 9))),
+    "masked attribute": ("attribute .* mask", lambda: scene().interpolate(frame_of(scene()), np.ma.masked_less(POSITIONS, 0), CAMERA)),
+    "masked camera": ("camera.view .* mask", lambda: scene().draw(edgewise.Camera(np.ma.masked_less(IDENTITY, 0), IDENTITY), SIZE)),
     "colours of uint16": ("uint16", lambda: edgewise.Scene(POSITIONS, INDICES, colours=COLOURS.astype(np.uint16))),
     "missing instance": ("instance 3 of 3", lambda: scene().set_instance(3, IDENTITY)),
     "removed, though missing": ("instance 3 of 3", lambda: scene().remove_instance(3)),
@@ -64,7 +73,7 @@ CASES = {
     "orthographic NaN": ("near < far, not nan", lambda: edgewise.orthographic(-1, 1, -1, 1, math.nan, 0.5)),
     "k of 2 rows": ("k must", lambda: edgewise.intrinsics(IDENTITY[:2, :3], 4, 4, 1)),
     "projection of 3 rows": ("projection", lambda: edgewise.projection_from(IDENTITY[:3])),
-    "view of 3 rows": ("views", lambda: scene().draw(edgewise.Camera(IDENTITY[:3], IDENTITY), SIZE)),
+    "view of 3 rows": ("camera.view must have the shape", lambda: scene().draw(edgewise.Camera(IDENTITY[:3], IDENTITY), SIZE)),
     "singular view": ("inverse", lambda: scene().draw(edgewise.Camera(np.zeros((4, 4)), IDENTITY), SIZE)),
     "size 0": (r"size\[0\] must be an integer from 1 to 16384, not 0", lambda: scene().draw(CAMERA, (0, 5))),
     "negative size": (r"size\[1\] .* not -5", lambda: scene().draw(CAMERA, (5, -5))),
@@ -119,6 +128,32 @@ CASES = {
     "mask of another size": ("sizes differ", lambda: edgewise.diff(plane(4, 4), plane(4, 4), plane(4, 5))),
     "colours against depths": ("cannot be compared", lambda: edgewise.diff(plane(4, 4), np.zeros((4, 4)))),
     "picture of 1 row": ("shape", lambda: edgewise.diff(plane(4), plane(4))),
+    "pictures in rows of two lengths": ("^a must be an array", lambda: edgewise.diff([[1, 2], [3]], plane(4, 4))),
+    "mask in rows of two lengths": ("^mask must be an array", lambda: edgewise.diff(plane(4, 4), plane(4, 4), [[1, 2], [3]])),
+    "depths in rows of two lengths": ("^depth must be an array", lambda: edgewise.write_pfm("a.pfm", [[1.0], [2.0, 3.0]])),
+    "depths beyond float32": ("^b must be in the range of float32, not 1e\\+39", lambda: edgewise.diff(np.zeros((1, 1)), np.full((1, 1), 1e39))),
+    "planes of two shapes": ("frame: payload and depth must have the same shape", lambda: scene().instance_ids(edgewise.Frame(plane(2, 2), plane()))),
+    "cameras for a stream": ("2 cameras for a stream", lambda: edgewise.lab.needs(stream(), [CAMERA] * 2, SIZE)),
+    "a camera for a stream": ("1 cameras for a stream", lambda: edgewise.lab.portable(stream(), CAMERA, SIZE)),
+    "attribute of another length": ("attribute: that of mesh 0 has the shape", lambda: scene().interpolate(
+        frame_of(scene()), [np.zeros((3, 2)), np.zeros((60, 2))], CAMERA)),
+    "one attribute for two meshes": ("1 arrays given instead of 2", lambda: scene().interpolate(
+        frame_of(scene()), np.zeros((180, 2)), CAMERA)),
+    "attributes of two widths": ("mesh 1 has the shape", lambda: scene().interpolate(
+        frame_of(scene()), [np.zeros((180, 2)), np.zeros((60, 3))], CAMERA)),
+    "complex attribute": ("must be numbers, not complex128", lambda: scene().interpolate(
+        frame_of(scene()), [np.zeros((180, 2)), np.zeros((60, 2), complex)], CAMERA)),
+    "two cameras for one view": ("2 cameras for 1 view", lambda: scene().barycentrics(frame_of(scene()), [CAMERA] * 2)),
+    "one camera for two views": ("1 cameras for 2 views", lambda: scene().barycentrics(frame_of(scene(), [CAMERA] * 2), CAMERA)),
+    "depth of two cameras": ("2 cameras", lambda: edgewise.metric_depth(frame_of(scene()), [CAMERA] * 2)),
+    "depth of a row": ("shape", lambda: edgewise.metric_depth(edgewise.Frame(None, np.zeros(4, np.uint32)), CAMERA)),
+    "camera of 3 rows": ("shape", lambda: edgewise.metric_depth(frame_of(scene()), edgewise.Camera(np.eye(3), np.eye(3)))),
+    "fraction of two cameras": ("2 cameras", lambda: scene().visible_fraction(frame_of(scene()), [CAMERA] * 2)),
+    "singular camera": ("no inverse", lambda: edgewise.metric_depth(frame_of(scene()), edgewise.Camera(
+        np.eye(4), np.ones((4, 4))))),
+    "instances of another scene": ("has id", lambda: edgewise.Scene(*triangles(1)[:2]).instance_ids(frame_of(scene()))),
+    "instances of colours": ("has id", lambda: scene().instance_ids(frame_of(scene(), ids=False))),
+    "instances without payload": ("no payload", lambda: scene().instance_ids(frame_of(scene(), depth_only=True))),
 }
 
 

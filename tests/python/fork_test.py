@@ -2,6 +2,8 @@
 import ctypes
 import os
 import signal
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -47,6 +49,33 @@ def test_a_forked_child_draws_while_a_thread_of_its_parent_draws():
         thread.join()
 
 
+# A process of its own, in which no other test has drawn. The extensions _native and _lab have a copy of the library each.
+PROGRAM = """
+import os, signal, sys
+sys.path.insert(0, sys.argv[1])
+from support import CAMERA, SIZE, scene
+import edgewise
+works = {"draw": lambda: edgewise.pixel_hash(scene().draw(CAMERA, SIZE, threads=2)),
+         "needs": lambda: scene().needs(CAMERA, SIZE, threads=2), "portable": lambda: scene().portable(CAMERA, SIZE, threads=2).counts}
+of_parent, of_child = works[sys.argv[2]], works[sys.argv[3]]
+of_parent()
+child = os.fork()
+if child == 0:
+    signal.alarm(60)
+    before = len(os.listdir("/proc/self/task"))
+    of_child()
+    os._exit(len(os.listdir("/proc/self/task")) - before)
+assert os.waitpid(child, 0)[1] == 0
+"""
+
+
+@pytest.mark.parametrize("parent, child", [("needs", "draw"), ("draw", "needs"), ("portable", "draw"), ("draw", "portable")])
+def test_a_child_starts_no_thread_whichever_extension_its_parent_used(parent, child):
+    command = [sys.executable, "-c", PROGRAM, os.path.dirname(__file__), parent, child]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 @pytest.mark.skipif(os.uname().machine != "x86_64", reason="the numbers are those of x86-64")
 @pytest.mark.parametrize("mode", [0x400, 0x800, 0xC00])
 def test_the_rounding_mode_changes_nothing_and_is_kept(mode):
@@ -55,7 +84,8 @@ def test_the_rounding_mode_changes_nothing_and_is_kept(mode):
 
     def numbers():
         uv, distance = drawn.barycentrics(drawn.draw(CAMERA, SIZE, ids=True), CAMERA)
-        return [hash_of(drawn), edgewise.pixel_hash(triangle_stream.draw()), uv, distance, edgewise.perspective(0.7, 1.3, 0.1, 9)]
+        return [hash_of(drawn), edgewise.pixel_hash(triangle_stream.draw()), uv, distance, edgewise.perspective(0.7, 1.3, 0.1, 9),
+                repr(triangle_stream.needs())]
     expected = numbers()
     libm.fesetround(mode)
     try:

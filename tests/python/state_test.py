@@ -163,12 +163,6 @@ def test_cameras_compare_and_hash_by_value():
     assert edgewise.Camera(view[:3], projection) != CAMERA
 
 
-def test_frames_pickle():
-    frame = scene().draw(CAMERA, SIZE, ids=True)
-    other = pickle.loads(pickle.dumps(frame))
-    assert type(other) is edgewise.Frame and same(other, frame) and other.has_ids is True
-
-
 def hashes_in_a_process(arguments):
     drawn, camera = arguments
     return edgewise.pixel_hash(drawn.draw(camera, SIZE, threads=2) if isinstance(drawn, edgewise.Scene) else drawn.draw(threads=2))

@@ -62,6 +62,7 @@ class Installed(unittest.TestCase):
     def check_exports(self, library, whole=False):
         """Checks that a library exports no more of ours than the public headers declare; `whole`: all of C's, and nothing else."""
         headers = "".join(path.read_text() for path in (ROOT / "src" / "edgewise").glob("*.h"))
+        headers = re.sub(r"(?s:/\*.*?\*/)|//.*", "", headers)
         exported = re.findall(r"^\S* ?\w (.*)$", run("nm", "-DC", "--defined-only", library), re.MULTILINE)
         ours = [name for name in exported if "edgewise" in re.sub(r"[(<].*", "", name)]
         for name in ours:
@@ -181,7 +182,6 @@ class Installed(unittest.TestCase):
     def test_the_licence(self):
         text = next(self.prefix.glob("share/doc/edgewise/LICENSE")).read_text()
         self.assertTrue(text.startswith("MIT License\n\nCopyright (c) "))
-        self.assertTrue((ROOT / "README.md").read_text().endswith("(src/package/LICENSE).\n"))
 
     @unittest.skipUnless(FULL, "compiles each header")
     def test_each_header_stands_alone_and_pleases_strict_compilers(self):

@@ -82,6 +82,8 @@ if written := files() - before:
 with tarfile.open(archive) as packed:
     packed.extractall(archives)
 unpacked = archives / archive.name.removesuffix(".tar.gz")
+if "MIT" not in (unpacked / "PKG-INFO").read_text():
+    sys.exit("the archive does not name its licence")
 install(unpacked, False, "--no-deps", "--target", without_lab)
 run("-c", WITHOUT_LAB, cwd=without_lab)
 install(unpacked, True)

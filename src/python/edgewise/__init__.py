@@ -9,23 +9,22 @@ Clip space, which is ``projection @ view @ world``: x points right, y up; visibl
 0 <= z <= w; z = 0 is nearest. The front of a triangle is the side from which its vertices appear clockwise on the screen.
 Pictures are the same, bit for bit, on every machine and for every backend and number of threads.
 
-Matrices multiply column vectors, as in ``matrix @ column``. Arrays of input are converted to the type that is stated: floats
-are rounded; an array of complex numbers, texts, objects or bools, one with a mask, an integer that the type cannot hold, and a
-float beyond its range are errors. A frame's planes are the caller's memory: they are neither converted nor copied, so another
-type is an error.
+Matrices multiply column vectors, as in ``matrix @ column``. Input arrays are converted to the stated type. Numbers that become
+floats are rounded. These are errors: complex numbers, text, objects, bools, masked arrays, numbers beyond the type's range, and
+floats of more than 64 bits. A frame's planes are the caller's memory. They are neither converted nor copied, so another type is
+an error.
 
 Errors: ValueError for arguments, arrays' types among them; TypeError for arguments of another type, such as "2" or True for
 2; OSError for files that cannot be read or written, among them unknown extensions; MemoryError. All name what is wrong.
 
-All work that takes long releases the GIL. Ctrl-C ends Scene.draw() and Scene.needs() of several cameras between two of them;
-any other call ends first. Python may exit while its threads draw.
+All work that takes long releases the GIL. Ctrl-C ends a call of several cameras between two views. A call of one view ends
+first. Python may exit while its threads draw.
 """
 from __future__ import annotations
 
 import copy
 import math
-from os import PathLike
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Sequence, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Sequence, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,12 +35,16 @@ from .frames import BLACK as BLACK
 from .frames import DEPTH_CLEAR as DEPTH_CLEAR
 from .frames import Camera as Camera
 from .frames import Frame as Frame
-from .frames import Queries as _Queries
 from .frames import Stats as Stats
+from .frames import amodal_masks as _amodal_masks
 from .frames import depth01 as depth01
 from .frames import id_colours as id_colours
+from .frames import instance_ids as _instance_ids
+from .frames import interpolate as _interpolate
 from .frames import metric_depth as metric_depth
+from .frames import visible_fraction as _visible_fraction
 from .pictures import Difference as Difference
+from .pictures import _Path
 from .pictures import colours as _colours
 from .pictures import diff as diff
 from .pictures import read_image as read_image
@@ -61,24 +64,21 @@ __version__: str = _native.VERSION
 BACKENDS: tuple[str, ...] = tuple(_native.BACKENDS)  # all draw the same pictures
 IDENTITY = np.eye(4)
 
-_Path = Union[str, "PathLike[str]"]
 _Drawn = TypeVar("_Drawn", bound="_Drawable")
 
 
 class Mesh(NamedTuple):
-    """What a scene holds of a mesh: copies of add_mesh()'s arguments, in the types that it states."""
-    positions: NDArray[np.float32] | NDArray[np.float64]  # shape (n, 3); float64 if the mesh was given so, far from 0
+    """A mesh's positions, triangles and colours, copied. The normals and names that a file gives are not among them."""
+    positions: NDArray[np.float32] | NDArray[np.float64]  # shape (n, 3); float64 if far from 0, else float32
     triangles: NDArray[np.uint32]  # shape (m, 3)
     colours: NDArray[np.uint32]  # shape (m,)
-    two_sided: bool
+    two_sided: bool  # all triangles are
 
 
 class Instance(NamedTuple):
     """Where a scene shows a mesh."""
     mesh: int
     matrix: NDArray[np.float64]  # shape (4, 4), from the mesh to the world
-
-
 
 
 def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 1.0, 0.0)) -> NDArray[np.float64]:
@@ -156,6 +156,8 @@ def visible_triangles(frame: Frame) -> tuple[NDArray[np.uint32], NDArray[np.int6
 class _Drawable:
     """What scenes and streams share. They keep the memory of their draws, so later ones are faster than the first.
 
+    Several threads may use one; its draws take turns. Two scenes or streams draw at the same time. A forked child may use it
+    unless a thread of its parent was changing it. After a draw of its parent on several threads, a child draws on one.
     copy.copy(), copy.deepcopy() and pickle make another one that holds the same and draws the same.
     """
     _native: Any
@@ -170,7 +172,7 @@ class _Drawable:
     def pixels_per_triangle(self, frame: Frame) -> NDArray[np.uint32]:
         """The number of pixels of each triangle in a frame of ids: shape (triangles,), or (views, triangles).
 
-        The frame shows this alone, drawn with a first_id of 0. ValueError for an id that this lacks.
+        The frame has ids from 0 on, of this alone. ValueError for an id that this lacks.
         """
         return self._native.pixels_per_triangle(*_check.frame(frame))
 
@@ -197,18 +199,14 @@ class _Drawable:
                 raise ValueError(f"onto has the shape {np.shape(frame.depth)}, not {shape}")
             if not clear and frame.depth.dtype.kind == "u" and np.max(frame.depth, initial=0) > DEPTH_CLEAR:
                 raise ValueError("onto has a depth above DEPTH_CLEAR")
-        frame.stats = Stats(*self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth, ids,
-                                               *options, clear or onto is None, scissor, progress))
-        if not depth_only:
-            frame.has_ids = ids
+        frame.stats = Stats(**self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth,
+                                                ids, *options, clear or onto is None, scissor, progress))
+        frame.has_ids = getattr(onto, "has_ids", None) if depth_only else ids
         return frame
 
 
-class Scene(_Queries, _Drawable):
-    """Meshes, their instances, and a light. Clip space and the fronts of triangles are as this module says.
-
-    Several threads may use a scene; its draws take turns. Scenes of their own let them draw at the same time.
-    """
+class Scene(_Drawable):
+    """Meshes, their instances, and a light. Clip space and the fronts of triangles are as this module says."""
 
     def __init__(self, positions: ArrayLike | None = None, triangles: ArrayLike | None = None, *,
                  colours: ArrayLike | None = None, two_sided: bool = False):
@@ -223,7 +221,7 @@ class Scene(_Queries, _Drawable):
     def read_obj(cls, path: _Path) -> Scene:
         """The mesh of a Wavefront OBJ file as one instance, with its colours, and with the fronts that OBJ defines.
 
-        Warns of what the reader skips, such as missing materials.
+        Warns of what the reader skips, such as missing materials. OSError for a file that cannot be read.
         """
         scene = cls.__new__(cls)
         scene._native, notes = _native.read_obj(_check.path(path, "path"))
@@ -242,7 +240,7 @@ class Scene(_Queries, _Drawable):
         """
         return self._native.add_mesh(
             _check.points(positions), _check.array(triangles, "triangles", np.uint32),
-            None if colours is None else _colours(colours, of_mesh=True), *_check.flags(two_sided=two_sided))
+            None if colours is None else _colours(colours), *_check.flags(two_sided=two_sided))
 
     def add_instance(self, mesh: int, matrix: ArrayLike = IDENTITY) -> int:
         """Places a mesh in the world by an affine matrix, shape (4, 4), and returns the instance's number."""
@@ -267,8 +265,10 @@ class Scene(_Queries, _Drawable):
     @property
     def meshes(self) -> tuple[Mesh, ...]:
         """The meshes by number, copied."""
-        return tuple(Mesh(mesh["positions"] + mesh["origin"] if mesh["origin"].any() else mesh["positions"], mesh["triangles"], mesh["colours"], bool(mesh["flags"].size and (mesh["flags"] & 1).all()))
-                     for mesh in self._native.meshes())
+        def mesh_of(positions: Any, triangles: Any, colours: Any, flags: Any, origin: Any, **_: Any) -> Mesh:
+            two_sided = flags.size > 0 and bool((flags & _native.TWO_SIDED).all())
+            return Mesh(positions + origin if origin.any() else positions, triangles, colours, two_sided)
+        return tuple(mesh_of(**mesh) for mesh in self._native.meshes())
 
     @property
     def instances(self) -> tuple[Instance, ...]:
@@ -299,12 +299,12 @@ class Scene(_Queries, _Drawable):
         first_id: the id of the first triangle; in a draw over others, the number of their triangles.
         cull: none, back, front or both; the C++ library's default is back.
         shade: multiplies colours by the light.
-        threads: 1 to 256.
+        threads: of front end and backend, 1 to 256; a forked child has one.
         backend: one of BACKENDS, which draw the same picture.
         background: the payload of pixels that no triangle covers; by default BACKGROUND_ID or BLACK.
         scissor: x, y, width, height, the only pixels to draw. The others keep what `onto` holds, or are background.
-        onto: a frame that is drawn over, as if both draws were one, and returned; else the frame is new. Rows must be
-          contiguous, views must not overlap, and payload and depth have the same strides. Unless it is cleared, no depth
+        onto: a frame that is drawn over, as if both draws were one, and returned as a new Frame of the same arrays. Rows must
+          be contiguous, views must not overlap, and payload and depth have the same strides. Unless it is cleared, no depth
           may exceed DEPTH_CLEAR.
         clear: clears `onto` first, inside the scissor.
         depth_only: neither makes nor writes payloads.
@@ -316,21 +316,22 @@ class Scene(_Queries, _Drawable):
                           threads, backend, ids, background, scissor, onto, clear, depth_only, progress)
 
     def barycentrics(self, frame: Frame, camera: Camera | Sequence[Camera], *, first_id: int = 0, cull: str = "none",
-                     threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+                     threads: int = 1, progress: Callable[[int], object] | None = None,
+                     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Perspective-correct coordinates of the triangle's point that each pixel of a frame of ids shows.
 
         Returns uv, shape (height, width, 2), and distance along the view direction, shape (height, width); for a frame of
         several views, and as many cameras, (views, height, width, 2) and (views, height, width). A pixel's value
         of an attribute is (1 - u - v) a[0] + u a[1] + v a[2]. u, v and 1 - u - v are >= 0. The distance is w in clip space,
         so a projection with another scale has another unit; in a parallel projection it is the depth in 0 ... 1. Background:
-        0 and infinity. Errors of u and v are below 2**-25 + 2**-47 + e / 2, that of the distance below 2**-24 + 2**-48 + e of
-        it, where e, usually below 2**-19, is 2**-20 times the largest ratio of a vertex's distance from the camera to its w,
-        and 0 in a stream (barycentrics.h).
+        0 and infinity. u and v err by less than 2**-25 + 2**-47 + e / 2. The distance's relative error is below
+        2**-24 + 2**-48 + e. Here e is 2**-20 times the largest ratio of a vertex's distance from the camera to its w, usually
+        below 2**-19; 0 for a stream (barycentrics.h). progress: as for draw().
         ValueError if the frame shows something else than this scene, seen by this camera, with this culling. If it was drawn
         over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
         """
         return self._native.barycentrics(*_check.matrices(_check.cameras(camera, "camera")), *_check.frame(frame),
-                                         *_check.id_options(first_id, cull, threads))
+                                         *_check.id_options(first_id, cull, threads), _check.callback(progress, "progress"))
 
     def objects(self) -> dict[str, NDArray[np.uint32]]:
         """The ids of the triangles of each object and group that an OBJ file names, ascending, through all instances.
@@ -341,7 +342,7 @@ class Scene(_Queries, _Drawable):
         return self._native.objects()
 
     def pixels_per_instance(self, frame: Frame) -> NDArray[np.uint32]:
-        """The number of pixels of each instance in a frame as of pixels_per_triangle(): shape (instances,), or (views,
+        """The number of pixels of each instance in a frame as for pixels_per_triangle(): shape (instances,), or (views,
         instances)."""
         return self._native.pixels_per_instance(*_check.frame(frame))
 
@@ -359,36 +360,38 @@ class Scene(_Queries, _Drawable):
                                     _check.frame(frame).depth)
         return bool(seen[0]) if low.ndim == 1 else seen
 
-    def needs(self, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
-              displacement: float | None = None, threads: int = 1, progress: Callable[[int], object] | None = None) -> lab.Needs:
-        """edgewise.lab.needs() of this scene."""
-        return _laboratory().needs(self, cameras, size, cull=cull, displacement=displacement, threads=threads,
-                                   progress=progress)
+    instance_ids = _instance_ids
+    amodal_masks = _amodal_masks
+    visible_fraction = _visible_fraction
+    interpolate = _interpolate
 
-    def portable(self, camera: Camera, size: tuple[int, int], *, cull: str = "none", bits: int = 8, ulps: int = 2,
-                 guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> lab.Portable:
+    def needs(self, cameras: Camera | Sequence[Camera], size: tuple[int, int], **options: Any) -> lab.Needs:
+        """edgewise.lab.needs() of this scene."""
+        return _laboratory().needs(self, cameras, size, **options)
+
+    def portable(self, camera: Camera, size: tuple[int, int], **options: Any) -> lab.Portable:
         """edgewise.lab.portable() of this scene."""
-        return _laboratory().portable(self, _check.camera(camera), size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band, depth=depth, threads=threads)
+        return _laboratory().portable(self, _check.camera(camera), size, **options)
 
 
 class Stream(_Drawable):
-    """Triangles that are already on the screen. Threads as in Scene."""
+    """Triangles that are already on the screen."""
 
     def __init__(self, vertices: ArrayLike, size: tuple[int, int], *, colours: ArrayLike | None = None):
         """vertices: shape (n, 3, 3), float32: per triangle and vertex, x and y in pixels, y down, and z in 0 ... 1, where
         smaller z is nearer. size: width, height in pixels of the image they are made for. colours: as Scene.add_mesh()."""
         self._native = _native.stream(_check.array(vertices, "vertices", np.float32), *_check.size(size),
-                                      None if colours is None else _colours(colours, of_mesh=True))
+                                      None if colours is None else _colours(colours))
 
     @classmethod
     def read_tri(cls, path: _Path) -> Stream:
-        """Reads a .tri file, such as `edgewise capture` writes."""
+        """Reads a .tri file, such as `edgewise capture` writes. OSError for a file that cannot be read."""
         stream = cls.__new__(cls)
         stream._native = _native.read_tri(_check.path(path, "path"))
         return stream
 
     def write_tri(self, path: _Path) -> None:
-        """Writes a .tri file."""
+        """Writes a .tri file. OSError if it cannot be written."""
         self._native.write_tri(_check.path(path, "path"))
 
     @property
@@ -419,18 +422,15 @@ class Stream(_Drawable):
                      threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """As Scene.barycentrics(); the distance is the depth in 0 ... 1."""
         return self._native.barycentrics(*_check.matrices([]), *_check.frame(frame),
-                                         *_check.id_options(first_id, cull, threads))
+                                         *_check.id_options(first_id, cull, threads), None)
 
-    def needs(self, size: tuple[int, int] | None = None, *, cull: str = "none", displacement: float | None = None,
-              threads: int = 1) -> lab.Needs:
+    def needs(self, size: tuple[int, int] | None = None, **options: Any) -> lab.Needs:
         """edgewise.lab.needs() of this stream."""
-        return _laboratory().needs(self, (), self.size if size is None else size, cull=cull, displacement=displacement, threads=threads)
+        return _laboratory().needs(self, (), self.size if size is None else size, **options)
 
-    def portable(self, size: tuple[int, int] | None = None, *, cull: str = "none", bits: int = 8, ulps: int = 2,
-                 guard_band: int = 3000, depth: str = "d24_unorm", threads: int = 1) -> lab.Portable:
+    def portable(self, size: tuple[int, int] | None = None, **options: Any) -> lab.Portable:
         """edgewise.lab.portable() of this stream."""
-        return _laboratory().portable(self, (), self.size if size is None else size, cull=cull, bits=bits, ulps=ulps, guard_band=guard_band,
-                               depth=depth, threads=threads)
+        return _laboratory().portable(self, (), self.size if size is None else size, **options)
 
 
 def draw(positions: ArrayLike, triangles: ArrayLike, camera: Camera | Sequence[Camera], size: tuple[int, int],
@@ -445,5 +445,3 @@ def draw(positions: ArrayLike, triangles: ArrayLike, camera: Camera | Sequence[C
 def _laboratory() -> Any:
     from . import lab  # not with the package: it may not have been built
     return lab
-
-

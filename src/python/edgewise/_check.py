@@ -1,5 +1,5 @@
 """Checks of arguments. Each returns the value as the extension takes it. An error is one line: the name, what is allowed, and
-the value. Numbers become another type only if they keep their value, except that floats may be rounded."""
+the value. Numbers that become floats may be rounded; all others keep their value."""
 from __future__ import annotations
 
 import operator
@@ -51,7 +51,8 @@ def counts(**given: Any) -> list[int]:
 
 def numbers(**given: Any) -> list[float]:
     for name, value in given.items():
-        if as_array(value).ndim or as_array(value).dtype.kind not in "iuf":
+        given_array = as_array(value, name, "a number")
+        if given_array.ndim or given_array.dtype.kind not in "iuf":
             refuse(value, name, "a number")
     return [float(value) for value in given.values()]
 
@@ -85,33 +86,34 @@ def callback(value: Any, name: str) -> Any:
     return value
 
 
-def as_array(values: Any) -> NDArray[Any]:
+def as_array(values: Any, name: str, allowed: str = "an array") -> NDArray[Any]:
+    """An array of any type."""
+    if isinstance(values, np.ma.MaskedArray):
+        refuse(values, name, allowed + " without a mask", ValueError)
     try:
         return np.asarray(values)
     except (TypeError, ValueError):  # rows of different lengths
-        return np.asarray(None)
+        refuse(values, name, allowed, ValueError)
 
 
 def array(values: Any, name: str, dtype: Any) -> NDArray[Any]:
     """`dtype` is float64, float32, or uint32, for which floats are refused. An empty array may have any type, as [] has one."""
     kinds, allowed = ("iu", "an array of integers") if dtype == np.uint32 else ("iuf", "an array of numbers of up to 64 bits")
-    given = as_array(values)
-    if isinstance(values, np.ma.MaskedArray):
-        refuse(values, name, allowed + " without a mask", ValueError)
+    given = as_array(values, name, allowed)
     if given.size and (given.dtype.kind not in kinds or given.dtype.itemsize > 8):
         refuse(values if given.dtype == object else given.dtype, name, allowed, ValueError)
     if not given.size or given.dtype == dtype:
         return np.asarray(given, dtype, order="C")
     with np.errstate(over="ignore", invalid="ignore"):
         made = np.asarray(given, dtype, order="C")
-        lost = np.isinf(made) != np.isinf(given) if given.dtype.kind == "f" else made.astype(np.int64) != given
+    lost = (given < 0) | (given > UINT_MAX) if made.dtype == np.uint32 else np.isinf(made) & ~np.isinf(given)
     if lost.any():
-        refuse(given[lost][0], name, f"in the range of {made.dtype}", ValueError)
+        refuse(given[lost][0].item(), name, f"in the range of {made.dtype}", ValueError)
     return made
 
 
 def points(values: Any) -> NDArray[Any]:
-    return array(values, "positions", np.float32 if as_array(values).dtype == np.float32 else np.float64)
+    return array(values, "positions", np.float32 if as_array(values, "positions").dtype == np.float32 else np.float64)
 
 
 def vectors(**given: Any) -> list[NDArray[np.float64]]:
@@ -134,14 +136,20 @@ def cameras(values: Any, name: str) -> list[edgewise.Camera]:
 
 
 def matrices(given: list[edgewise.Camera]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    return (array([one.view for one in given], "camera.view", np.float64),
-            array([one.projection for one in given], "camera.projection", np.float64))
+    def stack(name: str, of_views: list[Any]) -> NDArray[np.float64]:
+        made = array([as_array(matrix, name) for matrix in of_views], name, np.float64)
+        if given and made.shape[1:] != (4, 4):
+            raise ValueError(f"{name} must have the shape (4, 4), not {made.shape[1:]}")
+        return made
+    return stack("camera.view", [one.view for one in given]), stack("camera.projection", [one.projection for one in given])
 
 
 def frame(value: Any, name: str = "frame") -> edgewise.Frame:
     if not isinstance(value, tuple) or len(value) != 2 or not isinstance(value[1], np.ndarray) or \
             not isinstance(value[0], (np.ndarray, type(None))):
         refuse(value, name, "an edgewise.Frame of arrays")
+    if value[0] is not None and value[0].shape != value[1].shape:
+        raise ValueError(f"{name}: payload and depth must have the same shape, not {value[0].shape} and {value[1].shape}")
     return edgewise.Frame(*value)
 
 

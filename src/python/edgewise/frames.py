@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import copy
-import struct
-import zlib
-from typing import Any, Iterator, NamedTuple, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, Callable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import edgewise
 from . import _check, _native
 
 BACKGROUND_ID = 0xFFFFFFFF  # of pixels that no triangle covers, in frames of ids
@@ -42,15 +43,15 @@ class Stats(NamedTuple):
     """
     meshes: int  # instances
     meshes_culled: int  # of these, out of view
-    triangles: int
+    triangles: int  # of all instances
     whole_mesh: int  # dropped with their instance, which is out of view
     not_finite: int  # dropped: a vertex is NaN or infinite
     outside: int  # dropped: out of view
     not_in_front: int  # dropped: behind the camera
-    clipped: int
-    clipped_near: int
-    clipped_far: int
-    clipped_guard: int
+    clipped: int  # triangles that need clipping, which may drop them (outside, not_in_front)
+    clipped_near: int  # of these, those that cross the near plane
+    clipped_far: int  # those that cross the far plane
+    clipped_guard: int  # those that cross a side of the guard band
     pieces: int  # triangles after clipping
     culled: int  # pieces dropped for their facing
     zero_area: int  # pieces dropped: no area once rounded to 1/256 px
@@ -58,7 +59,7 @@ class Stats(NamedTuple):
 
 
 class _Planes(NamedTuple):
-    payload: NDArray[np.uint32]  # or None; a type that says so would burden all who draw payloads
+    payload: NDArray[np.uint32]  # or None; Optional here would make every user of payload check for None
     depth: NDArray[np.uint32]
 
 
@@ -81,18 +82,11 @@ class Frame(_Planes):
         ids = self.has_ids
         if ids is None:  # ids are below 2**30
             ids = bool((self.payload[self.depth != DEPTH_CLEAR] < BLACK).any())
-        colours = id_colours(self.payload) if ids else self.payload
-        return _png(colours.reshape(-1, colours.shape[-1])[:_native.MAX_SIDE])
-
-
-def _png(colours: NDArray[np.uint32]) -> bytes:
-    height, width = colours.shape
-    rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each begins with 0: not filtered
-    rows[:, 1:] = colours.astype("<u4")[..., None].view(np.uint8)[..., :3].reshape(height, -1)
-    png = b"\x89PNG\r\n\x1a\n"
-    for name, data in ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b"")):
-        png += struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    return png
+        colours = id_colours(self.payload) if ids else _check.array(self.payload, "payload", np.uint32)
+        with TemporaryDirectory() as folder:
+            path = Path(folder, "frame.png")
+            _native.write_colours(path, np.ascontiguousarray(colours.reshape(-1, colours.shape[-1])[:_native.MAX_SIDE]))
+            return path.read_bytes()
 
 
 def depth01(depth: NDArray[np.uint32]) -> NDArray[np.float64]:
@@ -126,7 +120,8 @@ def metric_depth(frame: Frame, camera: Camera | Sequence[Camera]) -> NDArray[np.
             except np.linalg.LinAlgError:
                 raise ValueError("a camera's matrix has no inverse") from None
             with np.errstate(divide="ignore"):
-                distances[i] = 1 / ((to_world[0] * x + to_world[1] * y + to_world[2] * stacked[i] + to_world[3]) * np.linalg.norm(to_w))
+                of_w = to_world[0] * x + to_world[1] * y + to_world[2] * stacked[i] + to_world[3]
+                distances[i] = 1 / (of_w * np.linalg.norm(to_w))
         else:
             distances[i] = (stacked[i] * projection[3, 3] - projection[2, 3]) / np.linalg.norm(to_z)
     result[depth == DEPTH_CLEAR] = np.inf
@@ -141,97 +136,107 @@ def id_colours(ids: NDArray[np.uint32]) -> NDArray[np.uint32]:
     return (_check.array(ids, "ids", np.uint32) + np.uint32(1)) * np.uint32(0x9E3779) & np.uint32(0xFFFFFF) | np.uint32(BLACK)
 
 
-class Queries:
-    """Methods of Scene. Frames are those of this scene alone, with ids from 0 on; all may have several views."""
+# The rest are methods of Scene. Frames are those of one scene alone, with ids from 0 on; all may have several views.
 
-    def instance_ids(self: Any, frame: Frame) -> NDArray[np.uint32]:
-        """The number of the instance that each pixel shows: shape (height, width) or (views, height, width).
 
-        frame: as of pixels_per_triangle(). Background: BACKGROUND_ID.
-        """
-        drawn, _, instances = self._shown(frame)
-        result = np.full(drawn.shape, BACKGROUND_ID, np.uint32)
-        result[drawn] = instances
-        return result
+def instance_ids(self: edgewise.Scene, frame: Frame) -> NDArray[np.uint32]:
+    """The number of the instance that each pixel shows: shape (height, width) or (views, height, width).
 
-    def amodal_masks(self: Any, camera: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
-                     threads: int = 1) -> NDArray[np.bool_]:
-        """The pixels that each instance would cover if it were alone: shape (instances, height, width) or (views, instances,
-        height, width). Arguments as of draw(). Draws once per instance and camera."""
-        cameras, size = _check.cameras(camera, "camera"), _check.size(size)
-        several = () if isinstance(camera, Camera) else (len(cameras),)
-        masks = list(self._alone(camera, size, cull, threads))
-        return np.stack(masks, axis=-3) if masks else np.empty((*several, 0, size[1], size[0]), np.bool_)
+    frame: of ids from 0 on, of this scene alone. Background: BACKGROUND_ID.
+    """
+    drawn, _, instances = _shown(self, frame)
+    result = np.full(drawn.shape, BACKGROUND_ID, np.uint32)
+    result[drawn] = instances
+    return result
 
-    def visible_fraction(self: Any, frame: Frame, camera: Camera | Sequence[Camera], *, cull: str = "none",
-                         threads: int = 1) -> NDArray[np.float64]:
-        """The pixels that a frame shows of each instance, divided by those of its amodal mask: shape (instances,) or (views,
-        instances). 0 if the mask is empty. What lies beyond the picture counts in neither.
 
-        frame, camera and cull: of one draw of ids.
-        """
-        cameras = _check.cameras(camera, "camera")
-        height, width = _check.frame(frame).depth.shape[-2:]
-        visible = self.pixels_per_instance(frame)
-        alone = [mask.sum(axis=(-2, -1)) for mask in self._alone(camera, (width, height), cull, threads)]
-        whole = np.stack(alone, axis=-1) if alone else np.zeros(visible.shape)
-        if whole.shape != visible.shape:
-            raise ValueError(f"the frame has the shape {frame.depth.shape}, for {len(cameras)} cameras")
-        return visible / np.maximum(whole, 1)
+def amodal_masks(self: edgewise.Scene, camera: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
+                 threads: int = 1, progress: Callable[[int], object] | None = None) -> NDArray[np.bool_]:
+    """The pixels that each instance would cover if it were alone: shape (instances, height, width) or (views, instances,
+    height, width). Arguments as for draw(). Draws each instance once per camera; progress() counts these draws."""
+    width, height = _check.size(size)
+    camera = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
+    masks = list(_alone(self, camera, (width, height), cull, threads, progress))
+    several = () if isinstance(camera, Camera) else (len(camera),)
+    return np.stack(masks, axis=-3) if masks else np.empty((*several, 0, height, width), np.bool_)
 
-    def interpolate(self: Any, frame: Frame, attribute: ArrayLike | Sequence[ArrayLike], camera: Camera | Sequence[Camera], *,
-                    cull: str = "none", threads: int = 1) -> NDArray[np.floating[Any]]:
-        """An attribute of vertices at each pixel, perspective-correct: shape (height, width, k) or (views, height, width, k).
 
-        attribute: shape (n, k), numbers, a row per vertex of the scene's mesh; for several meshes a list with such an array
-        for each. Rows may also be numbers, shape (n,), or arrays. frame, camera and cull: of one draw of ids. Background: NaN.
-        The result has the arrays' type, or a float type that holds it; the weights are those of barycentrics().
-        """
-        meshes = self.meshes
-        arrays = [_check.as_array(values) for values in (attribute if isinstance(attribute, (list, tuple)) else [attribute])]
-        if len(arrays) != len(meshes):
-            raise ValueError(f"attribute: {len(arrays)} arrays given instead of {len(meshes)}, one per mesh")
-        for i, (array, mesh) in enumerate(zip(arrays, meshes)):
-            if array.dtype.kind not in "iuf":
-                raise ValueError(f"attribute: that of mesh {i} must be numbers, not {array.dtype}")
-            wanted = (len(mesh.positions), *arrays[0].shape[1:])
-            if array.shape != wanted:
-                raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {wanted}")
-        drawn, triangles, instances = self._shown(frame)
-        uv, _ = self.barycentrics(frame, camera, cull=cull, threads=threads)
-        rest = arrays[0].shape[1:] if arrays else ()
-        result = np.full((*drawn.shape, *rest), np.nan, np.result_type(np.float32, *arrays))
-        if triangles.size:
-            first_vertex = np.cumsum([0, *(len(array) for array in arrays)])
-            first_triangle = np.cumsum([0, *(len(mesh.triangles) for mesh in meshes)])
-            of_instance = np.array([mesh for mesh, _ in self.instances])[instances]
-            corners = np.concatenate([mesh.triangles for mesh in meshes])[triangles + first_triangle[of_instance]]
-            values = np.concatenate(arrays)[corners + first_vertex[of_instance][:, None]]
-            u, v = uv[drawn].T.astype(np.float64)  # the weights add up to 1 exactly
-            result[drawn] = np.einsum("ip,pi...->p...", np.stack([1 - u - v, u, v]), values)
-        return result
+def visible_fraction(self: edgewise.Scene, frame: Frame, camera: Camera | Sequence[Camera], *, cull: str = "none",
+                     threads: int = 1, progress: Callable[[int], object] | None = None) -> NDArray[np.float64]:
+    """The pixels that a frame shows of each instance, divided by those of its amodal mask: shape (instances,) or (views,
+    instances). 0 if the mask is empty. What lies beyond the picture counts in neither.
 
-    def _shown(self: Any, frame: Frame) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.intp]]:
-        """Which pixels are drawn; then of these in order the triangle, counted in its mesh, and the instance."""
-        payload, depth = _check.frame(frame)
-        if payload is None:
-            raise ValueError("the frame has no payload: draw ids")
-        drawn = depth != DEPTH_CLEAR
-        ids = _check.array(payload, "frame.payload", np.uint32)[drawn].astype(np.int64)
-        first = self.first_ids()
-        if ids.size and ids.max() >= first[-1]:
-            raise ValueError(f"a pixel has id {ids.max()} of {first[-1]} triangles")
-        instances = np.searchsorted(first, ids, side="right") - 1
-        return drawn, ids - first[instances], instances
+    frame, camera and cull: of one draw of ids from 0 on, of this scene alone. progress: as for amodal_masks().
+    """
+    frame = _check.frame(frame)
+    camera = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
+    visible = self.pixels_per_instance(frame)
+    height, width = frame.depth.shape[-2:]
+    alone = [mask.sum(axis=(-2, -1)) for mask in _alone(self, camera, (width, height), cull, threads, progress)]
+    whole = np.stack(alone, axis=-1) if alone else np.zeros(visible.shape)
+    if whole.shape != visible.shape:
+        raise ValueError(f"the frame has the shape {frame.depth.shape}, for {len(_check.cameras(camera, 'camera'))} cameras")
+    return visible / np.maximum(whole, 1)
 
-    def _alone(self: Any, camera: Camera | Sequence[Camera], size: tuple[int, int], cull: str,
-               threads: int) -> Iterator[NDArray[np.bool_]]:
-        """Whether each pixel is drawn if an instance is alone, for each."""
-        alone = copy.copy(self)
-        instances = alone.instances
-        for i in reversed(range(len(instances))):
-            alone.remove_instance(i)
-        for instance in instances:
-            alone.add_instance(*instance)
-            yield alone.draw(camera, size, cull=cull, threads=threads, depth_only=True).depth != DEPTH_CLEAR
-            alone.remove_instance(0)
+
+def interpolate(self: edgewise.Scene, frame: Frame, attribute: ArrayLike | Sequence[ArrayLike],
+                camera: Camera | Sequence[Camera], *, cull: str = "none", threads: int = 1,
+                progress: Callable[[int], object] | None = None) -> NDArray[np.floating[Any]]:
+    """A vertex attribute at each pixel, perspective-correct: shape (height, width, k) or (views, height, width, k).
+
+    attribute: for a scene of one mesh, an ndarray of shape (n,), (n, k) or (n, ...), numbers, with a row per vertex; else a
+    list or tuple with one per mesh. ValueError for others. frame, camera and cull: of one draw of ids from 0 on, of this scene
+    alone. Background: NaN. The result has the arrays' type, or a float type that holds it; the weights are those of
+    barycentrics(), as is progress.
+    """
+    meshes = self.meshes
+    given = attribute if isinstance(attribute, (list, tuple)) else [attribute]
+    arrays = [_check.as_array(values, "attribute", "an array, or a list of them") for values in given]
+    if len(arrays) != len(meshes):
+        raise ValueError(f"attribute: {len(arrays)} arrays given instead of {len(meshes)}; a list has one per mesh")
+    for i, (array, mesh) in enumerate(zip(arrays, meshes)):
+        if array.dtype.kind not in "iuf":
+            raise ValueError(f"attribute: that of mesh {i} must be numbers, not {array.dtype}")
+        wanted = (len(mesh.positions), *arrays[0].shape[1:])
+        if array.shape != wanted:
+            raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {wanted}")
+    drawn, triangles, instances = _shown(self, frame)
+    uv, _ = self.barycentrics(frame, camera, cull=cull, threads=threads, progress=progress)
+    rest = arrays[0].shape[1:] if arrays else ()
+    result = np.full((*drawn.shape, *rest), np.nan, np.result_type(np.float32, *arrays))
+    if triangles.size:
+        of_instance = np.array([mesh for mesh, _ in self.instances])[instances]
+        first_triangle = np.cumsum([0, *(len(mesh.triangles) for mesh in meshes)])
+        by_triangle = np.concatenate([array[mesh.triangles] for array, mesh in zip(arrays, meshes)])
+        values = by_triangle[triangles + first_triangle[of_instance]]
+        u, v = uv[drawn].T.astype(np.float64)  # the weights add up to 1 exactly
+        result[drawn] = np.einsum("ip,pi...->p...", np.stack([1 - u - v, u, v]), values)
+    return result
+
+
+def _shown(self: edgewise.Scene, frame: Frame) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.intp]]:
+    """Which pixels are drawn; then of these in order the triangle, counted in its mesh, and the instance."""
+    payload, depth = _check.frame(frame)
+    if payload is None:
+        raise ValueError("the frame has no payload: draw ids")
+    drawn = depth != DEPTH_CLEAR
+    ids = _check.array(payload, "frame.payload", np.uint32)[drawn].astype(np.int64)
+    first = self.first_ids()
+    if ids.size and ids.max() >= first[-1]:
+        raise ValueError(f"a pixel has id {ids.max()} of {first[-1]} triangles")
+    instances = np.searchsorted(first, ids, side="right") - 1
+    return drawn, ids - first[instances], instances
+
+
+def _alone(self: edgewise.Scene, camera: Camera | Sequence[Camera], size: tuple[int, int], cull: str, threads: int,
+           progress: Callable[[int], object] | None) -> Iterator[NDArray[np.bool_]]:
+    """Whether each pixel is drawn if an instance is alone, for each."""
+    alone = edgewise.Scene()  # not a copy of self, whose class may draw otherwise
+    alone._native = copy.deepcopy(self._native)
+    instances = alone.instances
+    for i in reversed(range(len(instances))):
+        alone.remove_instance(i)
+    for instance in instances:
+        alone.add_instance(*instance)
+        yield alone.draw(camera, size, cull=cull, threads=threads, depth_only=True, progress=progress).depth != DEPTH_CLEAR
+        alone.remove_instance(0)

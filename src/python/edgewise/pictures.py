@@ -22,15 +22,16 @@ class Difference(NamedTuple):
     first: tuple[int, int] | None  # x, y of the first pixel that differs, row by row
     masked: int  # pixels of the mask
     differing_in_mask: int
-    differing_in_alpha: int  # pixels outside the mask, which `differing` leaves out; 0 for depths
     picture: NDArray[np.uint32]  # grey where equal, red where not
+    differing_in_alpha: int  # pixels outside the mask, which `differing` leaves out; 0 for depths
 
 
 def read_image(path: _Path) -> NDArray[Any]:
     """A picture: PNG, PGM or PPM, or a PFM with three channels, by the file's content. Shape (height, width).
 
     16-bit grey is uint16, as stored. All else is uint32, 0xFFBBGGRR: alpha is ignored, other samples of 16 bits are rounded to
-    8, and those of a PFM, from 0 to 1, too. Warns of a PNG that is cut behind its pixels.
+    8, and those of a PFM, from 0 to 1, too. Warns if a PNG ends after its pixels (no IEND).
+    OSError for a file that cannot be read.
     """
     picture, notes = _native.read_image(_check.path(path, "path"))
     warn(notes)
@@ -41,77 +42,85 @@ def write_image(path: _Path, colours: ArrayLike) -> None:
     """Writes a picture by the extension: colours as an 8-bit PNG or PPM, or grey as a 16-bit PNG.
 
     colours: shape (height, width), uint32, 0xAABBGGRR, or (height, width, 3 or 4), uint8: R, G, B; alpha is ignored. Or
-    (height, width), uint16: 16-bit grey. ValueError for other types.
+    (height, width), uint16: 16-bit grey. ValueError for other types, OSError for a file that cannot be written.
     """
-    picture = _picture(colours)
-    (_native.write_grey16 if picture.dtype == np.uint16 else _native.write_colours)(_check.path(path, "path"), picture)
+    path, picture = _check.path(path, "path"), _picture(colours, "colours")
+    (_native.write_grey16 if picture.dtype == np.uint16 else _native.write_colours)(path, picture)
 
 
 def read_pfm(path: _Path) -> NDArray[np.float32]:
-    """The floats of a PFM file: a depth map, shape (height, width), or three channels, shape (height, width, 3)."""
+    """The floats of a PFM file: a depth map, shape (height, width), or three channels, shape (height, width, 3).
+
+    OSError for a file that cannot be read.
+    """
     return _native.read_pfm(_check.path(path, "path"))
 
 
 def write_pfm(path: _Path, depth: ArrayLike) -> None:
     """Writes a depth map, such as depth01() of a frame's depth, as float32.
 
-    depth: shape (height, width), of any float type; ValueError for others.
+    depth: shape (height, width), floats of up to 64 bits. ValueError for other types and for floats beyond float32's range,
+    OSError for a file that cannot be written.
     """
-    if (dtype := np.asarray(depth).dtype).kind != "f":
-        raise ValueError(f"depths must be floats, not {dtype}; of a frame's depths, write depth01(depth)")
-    _native.write_pfm(_check.path(path, "path"), _check.array(depth, "depth", np.float32))
+    path = _check.path(path, "path")
+    if (dtype := _check.as_array(depth, "depth").dtype).kind != "f":
+        raise ValueError(f"depth must be floats, not {dtype}; of a frame's depths, write depth01(depth)")
+    _native.write_pfm(path, _check.array(depth, "depth", np.float32))
 
 
 def diff(a: _Path | ArrayLike, b: _Path | ArrayLike, mask: _Path | ArrayLike | None = None) -> Difference:
     """Compares two pictures or two depth maps, as `edgewise diff` does.
 
-    a, b: files, or arrays: pictures as write_image() takes them; or depths of any float type, shape (height, width) or
+    a, b: files, or arrays: pictures as write_image() takes them; or depths, floats of up to 64 bits, shape (height, width) or
     (height, width, 3), which are compared as float32. Planes of frames are neither: compare id_colours(ids) and
     depth01(depth). mask: a file, or an array of shape (height, width), or a picture. Pixels count as equal where it is not
-    black or 0, so Portable.reasons is one.
+    black or 0, so Portable.reasons is one. ValueError for arrays of other types, OSError for files that cannot be read.
     """
-    *found, notes = _native.diff(_comparable(a), _comparable(b), mask if mask is None or _is_path(mask) else _mask(mask))
+    *found, notes = _native.diff(_comparable(a, "a"), _comparable(b, "b"), None if mask is None else _mask(mask))
     warn(notes)
     return Difference(*found)
 
 
-def colours(values: ArrayLike, of_mesh: bool = False) -> NDArray[np.uint32]:
-    """0xAABBGGRR. ValueError for types that could mean anything else. A mesh's may be integers of 64 bits."""
-    array = np.asarray(values)
+def colours(values: ArrayLike, name: str = "colours") -> NDArray[np.uint32]:
+    """0xAABBGGRR. ValueError for types that could mean anything else."""
+    array = _check.as_array(values, name)
     if array.dtype == np.uint8 and array.ndim and array.shape[-1] in (3, 4):
-        alpha = array[..., 3:] if array.shape[-1] == 4 else np.full_like(array[..., :1], 255)
-        r, g, b, a = np.moveaxis(np.concatenate([array[..., :3], alpha], axis=-1).astype(np.uint32), -1, 0)
-        return r | g << np.uint32(8) | b << np.uint32(16) | a << np.uint32(24)
-    wide = array.dtype.kind in "iu" and array.dtype.itemsize == 8
-    if array.size and wide and (of_mesh or isinstance(values, (list, tuple))):  # Python's integers have no width
-        if array.min() < 0 or array.max() > 0xFFFFFFFF:
-            raise ValueError("a colour is outside 0 to 0xFFFFFFFF")
-    elif array.size and (array.dtype.kind != "u" or array.dtype.itemsize != 4):
-        raise ValueError(f"colours must be 0xAABBGGRR of type uint32, or R, G, B of type uint8 and shape (..., 3 or 4), "
+        rgba = np.full((*array.shape[:-1], 4), 255, np.uint8)
+        rgba[..., :array.shape[-1]] = array
+        return rgba.view("<u4")[..., 0].astype(np.uint32)
+    if isinstance(values, (list, tuple)) and array.dtype == np.int64:  # Python's integers have no width
+        return _check.array(values, name, np.uint32)
+    if array.size and (array.dtype.kind != "u" or array.dtype.itemsize != 4):
+        raise ValueError(f"{name} must be 0xAABBGGRR of type uint32, or R, G, B of type uint8 and shape (..., 3 or 4), "
                          f"not {array.dtype} of shape {array.shape}")
     return np.asarray(array, np.uint32, order="C")
 
 
-def _picture(picture: ArrayLike) -> NDArray[Any]:
+def _picture(picture: ArrayLike, name: str) -> NDArray[Any]:
     """Colours, or 16-bit grey."""
-    array = np.asarray(picture)
-    return np.asarray(array, np.uint16, order="C") if array.dtype.kind == "u" and array.dtype.itemsize == 2 else colours(picture)
+    array = _check.as_array(picture, name)
+    if array.dtype.kind == "u" and array.dtype.itemsize == 2:
+        return np.asarray(array, np.uint16, order="C")
+    return colours(picture, name)
 
 
-def _comparable(value: Any) -> Any:
+def _comparable(value: Any, name: str) -> Any:
     if _is_path(value):
-        return value
-    array = np.asarray(value)
-    return np.asarray(array, np.float32, order="C") if array.dtype.kind == "f" else _picture(value)
+        return _check.path(value, name)
+    if _check.as_array(value, name).dtype.kind == "f":
+        return _check.array(value, name, np.float32)
+    return _picture(value, name)
 
 
-def _mask(mask: ArrayLike) -> NDArray[np.uint32]:
-    """A picture that is black where pixels count."""
-    array = np.asarray(mask)
+def _mask(mask: Any) -> Any:
+    """A file, or a picture that is black where pixels count."""
+    if _is_path(mask):
+        return _check.path(mask, "mask")
+    array = _check.as_array(mask, "mask")
     if array.dtype == np.uint32 or array.dtype == np.uint8 and array.ndim == 3:
-        return colours(array)
-    if array.dtype.kind not in "biuf":
-        raise ValueError(f"a mask must be numbers, not {array.dtype}")
+        return colours(array, "mask")
+    if array.dtype.kind not in "biuf" or array.ndim != 2:
+        raise ValueError(f"mask must be numbers of shape (height, width), not {array.dtype} of shape {array.shape}")
     return np.where(array != 0, np.uint32(0xFFFFFFFF), np.uint32(BLACK))
 
 
