@@ -4,13 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <cstdint>
+#include <cstring>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif
+
+#include "edgewise/hash.h"
 
 namespace edgewise::testing {
 
@@ -55,6 +60,23 @@ inline std::vector<unsigned> float_state() {
   state.push_back(static_cast<unsigned>(control));
 #endif
   return state;
+}
+
+// Numbers that tell values apart, without computing with floats.
+using Bits = std::vector<std::uint64_t>;
+template <typename T>
+std::uint64_t bits_of(std::span<const T> values) {
+  std::vector<std::uint64_t> words((values.size_bytes() + 7) / 8);
+  if (!words.empty()) std::memcpy(words.data(), values.data(), values.size_bytes());
+  return hash_of_all(words);
+}
+template <typename T>
+std::uint64_t bits_of(const std::vector<T>& values) {
+  return bits_of(std::span<const T>(values));
+}
+template <typename T>
+std::uint64_t bits(const T& value) {
+  return bits_of(std::span<const T>(&value, 1));
 }
 
 // Calls f(i) in the default state, then in each other one. It must return the same each time, and leave the

@@ -140,7 +140,7 @@ void write_image(const fs::path& path, const Image& image) {
 }
 
 void write_image(const fs::path& path, const Image& image, Format format) {
-  const DefaultFloatState state;  // for libpng
+  const DefaultFloatState state;
   netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
   AtomicFile file(path);
   if (format == Format::png)
@@ -151,6 +151,7 @@ void write_image(const fs::path& path, const Image& image, Format format) {
 }
 
 void write_pfm(const fs::path& path, const DepthMap& map) {
+  const DefaultFloatState state;
   netpbm::check_pixels(path, map.width, map.height, map.depth01.size());
   AtomicFile file(path);
   write_pfm(file.stream(), map);

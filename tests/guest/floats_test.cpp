@@ -1,10 +1,6 @@
 // Pictures, numbers and the caller's floating-point state do not depend on the state that functions are
 // called in.
-#include <array>
-#include <bit>
-#include <cstring>
 #include <limits>
-#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -20,23 +16,8 @@
 namespace edgewise {
 namespace {
 
-using Bits = std::vector<std::uint64_t>;
+using testing::Bits, testing::bits, testing::bits_of;
 constexpr int kWidth = 160, kHeight = 120;
-
-template <typename T>
-std::uint64_t bits_of(std::span<const T> values) {
-  std::vector<std::uint64_t> words((values.size_bytes() + 7) / 8);
-  if (!words.empty()) std::memcpy(words.data(), values.data(), values.size_bytes());
-  return hash_of_all(words);
-}
-template <typename T>
-std::uint64_t bits_of(const std::vector<T>& values) {
-  return bits_of(std::span<const T>(values));
-}
-template <typename T>
-std::uint64_t bits(const T& value) {
-  return bits_of(std::span<const T>(&value, 1));
-}
 
 // Triangles of which some are not finite, reach beyond the guard band or have denormal sides.
 Scene hard_scene() {
