@@ -191,11 +191,11 @@ def test_alpha_is_compared_apart(tmp_path):
     assert edgewise.diff(path, a).differing_in_alpha == 4
 
 
-def test_a_png_that_is_cut_behind_its_pixels_is_a_warning(tmp_path):
+def test_a_png_without_its_end_is_a_warning(tmp_path):
     path = tmp_path / "a.png"
     edgewise.write_image(path, np.zeros((2, 2), np.uint32))
     path.write_bytes(path.read_bytes()[:-12])
-    with pytest.warns(UserWarning, match="cut behind its pixels") as warned:
+    with pytest.warns(UserWarning, match="ends after its pixels") as warned:
         edgewise.read_image(path)
         edgewise.diff(path, path)
     assert [w.filename for w in warned] == [__file__] * 3
