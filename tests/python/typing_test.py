@@ -13,7 +13,7 @@ def test_the_examples_pass_mypy(tmp_path):
         for i, block in enumerate(re.findall(r"^```python\n(.*?)^```", readme.read_text(), re.MULTILINE | re.DOTALL)):
             examples[f"{readme.parent.name.replace('-', '_')}_{i}"] = block
     assert len(examples) > 4
-    examples["wrong"] = "import edgewise\nscene = edgewise.Scene()\nscene.draw('camera', (4, 4))\nscene.meshes[0].positions.no_such\n"
+    examples["wrong"] = "import edgewise\nscene = edgewise.Scene()\nscene.draw('camera', (4, 4))\nscene.light.no_such\n"
     for name, text in examples.items():
         (tmp_path / f"example_{name}.py").write_text(text)
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(Path(sys.prefix) / "mypy"), "."]
