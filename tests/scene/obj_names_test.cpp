@@ -1,15 +1,18 @@
-// What OBJ files name: materials, libraries, objects and groups.
+// What OBJ files name: materials, libraries, objects and groups; and floating-point modes while they are
+// read.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "edgewise/obj_file.h"
 #include "edgewise/visible.h"
+#include "float_modes.h"
 #include "obj_text.h"
 
 namespace edgewise {
@@ -84,6 +87,18 @@ TEST(ObjFile, ObjectsAndGroupsHaveTheirTriangles) {
   EXPECT_EQ(objects_in("o Part #1 \t\ng a #1 a # b\nf 1 2 3\no Part #2\no Part \\\n#3\nf 1 2 3\ng none\n"),
             (Objects{{"Part #1", {0}}, {"Part #3", {1}}, {"a", {0, 1}}, {"#1", {0, 1}}}));
   EXPECT_TRUE(read_with_report(dir, kCorners + "o\ng\nf 1 2 3\no a\n").mesh().parts.empty());
+}
+
+TEST(FloatMode, ChangesNoMeshOfAFile) {
+  const TempDir dir;
+  const auto obj = dir.write("a.obj",
+                             "v 1000000.1 0.3 0.7 .11 .57 .93\nv 1000001.3 0 .1 .3 .7 .9\n"
+                             "v 1000000.9 1.7 .3 .1 .7 .3\nv 1000000.2 1.9 1e-42 1 .3 .1\nf 1 2 3 4\n");
+  testing::expect_same_in_every_float_mode([&](int) {
+    const Scene scene = read_obj(obj);
+    const Mesh& mesh = scene.meshes[0];
+    return std::tuple(mesh.positions, mesh.normals, mesh.colours, mesh.origin, scene.camera.position);
+  });
 }
 
 }  // namespace
