@@ -105,9 +105,7 @@ constinit ParallelFor parallel_for = run;
 }  // namespace edgewise::detail
 
 void edgewise::allow_more_threads_than_cores() {
-  using tbb::global_control;
-  [[maybe_unused]] static const auto& kept =
-      *new global_control(global_control::max_allowed_parallelism, 1024);
+  static const tbb::global_control kept(tbb::global_control::max_allowed_parallelism, 1024);
 }
 
 #else
