@@ -112,7 +112,8 @@ library_on() {
 program_on() {
   local build=$platforms/$1 build_type=None sysroot=$platforms/$1-packages
   local -a build_flags=("-DCMAKE_TOOLCHAIN_FILE=$root/tests/platforms/cross.cmake" "-DEDGEWISE_PROCESSOR=$1"
-    "-DEDGEWISE_SYSROOT=$sysroot" -DEDGEWISE_WERROR=ON -DCMAKE_CXX_FLAGS=-O1)
+    "-DEDGEWISE_SYSROOT=$sysroot" -DEDGEWISE_WERROR=ON -DCMAKE_CXX_FLAGS=-O1
+    -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON) # it would find this machine's Dear ImGui
   local -a run=("qemu-$1" -L "$sysroot")
   unpack_sysroot "$sysroot" "$2"
   build edgewise_program edgewise_hashes edgewise_library_tests
