@@ -23,26 +23,25 @@ py::list texts_of(const Notes& notes) {
   return texts;
 }
 
+// An Image, a Grey16 or a DepthMap.
+template <typename Of, typename Pixel>
+Of image_of(const Array<Pixel>& pixels, const char* name) {
+  check(pixels, name, {-1, -1});
+  return {side(pixels.shape(1)), side(pixels.shape(0)), copied<Pixel>(pixels)};
+}
+
 Samples samples_of(const Words& colours) {
-  check(colours, "a picture", {-1, -1});
-  Samples samples{side(colours.shape(1)), side(colours.shape(0)), false, false, {}};
-  const auto pixels = copied<std::uint32_t>(colours);
+  const auto image = image_of<Image>(colours, "a picture");
   const Released released;
-  samples.pixels.reserve(pixels.size());
-  for (const std::uint32_t c : pixels) {
-    const auto sample = [&](int shift) { return static_cast<std::uint16_t>((c >> shift & 255) * 257); };
-    samples.pixels.push_back({sample(0), sample(8), sample(16), sample(24)});
-  }
-  return samples;
+  return to_samples(image);
 }
 
 Samples samples_of(const Shorts& grey) {
-  check(grey, "a picture of 16-bit grey", {-1, -1});
-  Samples samples{side(grey.shape(1)), side(grey.shape(0)), true, true, {}};
-  const auto pixels = copied<std::uint16_t>(grey);
+  const auto image = image_of<Grey16>(grey, "a picture of 16-bit grey");
   const Released released;
-  samples.pixels.reserve(pixels.size());
-  for (const std::uint16_t g : pixels) samples.pixels.push_back({g, g, g, 65535});
+  Samples samples{image.width, image.height, true, true, {}};
+  samples.pixels.reserve(image.pixels.size());
+  for (const std::uint16_t g : image.pixels) samples.pixels.push_back({g, g, g, 65535});
   return samples;
 }
 
@@ -99,8 +98,7 @@ py::tuple read_colours(const Path& path) {
 template <typename Of, typename Pixel>
 void write_pixels(void (*write)(const Path&, const Of&), const Path& path, const Array<Pixel>& pixels,
                   const char* name) {
-  check(pixels, name, {-1, -1});
-  const Of image{side(pixels.shape(1)), side(pixels.shape(0)), copied<Pixel>(pixels)};
+  const auto image = image_of<Of>(pixels, name);
   with_file_only([&] { write(path, image); });
 }
 

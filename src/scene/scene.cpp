@@ -37,6 +37,14 @@ double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
+glm::dmat4 matrix_of(const Instance& instance) {
+  if (instance.matrix) return *instance.matrix;
+  glm::dmat4 m = glm::translate(glm::dmat4(1.0), instance.translation);
+  if (instance.angle != 0.0f && instance.axis != glm::vec3(0.0f))
+    m *= glm::dmat4(rotation(instance.axis, double{instance.angle}));
+  return glm::scale(m, instance.scale);
+}
+
 }  // namespace
 
 glm::vec3 face_normal(std::span<const glm::vec3> vertices) {
@@ -120,10 +128,7 @@ void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
 
 glm::dmat4 model_matrix(const Mesh& mesh, const Instance& instance) {
   const DefaultFloatState state;
-  glm::dmat4 m = glm::translate(glm::dmat4(1.0), instance.translation);
-  if (instance.angle != 0.0f && instance.axis != glm::vec3(0.0f))
-    m *= glm::dmat4(rotation(instance.axis, double{instance.angle}));
-  m = instance.matrix ? *instance.matrix : glm::scale(m, instance.scale);
+  const glm::dmat4 m = matrix_of(instance);
   return mesh.origin == glm::dvec3(0.0) ? m : glm::translate(m, mesh.origin);
 }
 
