@@ -8,7 +8,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "lab/cells/cells.h"
 #include "lab/choice.h"
 #include "scene/polygon.h"
 #include "support/options.h"
@@ -110,10 +109,10 @@ class Suite {
   // Frames that differ in one factor at a time, on one thread and on all.
   void add_cells(const WorkloadPtr& workload, const std::string& scene) {
     const std::set<int> thread_counts{1, tools::default_threads()};
-    for (const lab::Cell& cell : lab::cells())
+    for (const Cell& cell : cells())
       for (const int threads : thread_counts) {
-        add(workload, Timed::frame, cell.backend, scene, threads, cell.target);
-        rows_.back().name = fmt::format("cell/{}/{}/threads:{}", scene, factors(cell), threads);
+        add(workload, Timed::frame, *cell.backend, scene, threads, cell.target);
+        rows_.back().name = fmt::format("cell/{}/{}/threads:{}", scene, cell.factors, threads);
         rows_.back().many_rounds_up_to_s = kTooSlowToRepeat_s;
       }
   }
@@ -307,6 +306,22 @@ bool in_quick_run(const Row& row) {
   const bool plain = name.substr(end).starts_with("/threads:");
   return (is_cell(row) || plain) && scene.find(':') == std::string_view::npos &&
          (!built_in || std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes));
+}
+
+std::vector<Cell> cells() {
+  std::vector<Cell> all;
+  for (const BackendInfo& composition : compositions()) {
+    const std::string_view name = composition.name, traversal = name.substr(0, name.find('+')),
+                           parts = name.substr(traversal.size() + 1), fill = parts.substr(0, parts.find('+')),
+                           with = parts.substr(std::min(fill.size() + 1, parts.size()));
+    if (with == "masks") continue;  // masks join HiZ
+    for (const SimdTarget target : {SimdTarget::scalar, SimdTarget::best})
+      if (with.empty() || target == SimdTarget::best)  // both need vectors
+        all.push_back({&composition, target,
+                       fmt::format("traversal:{}/fill:{}/simd:{}{}{}", traversal, fill,
+                                   name_of(resolve(target)), with.empty() ? "" : "/with:", with)});
+  }
+  return all;
 }
 
 std::vector<Row> make_suite(const SuiteOptions& options) {

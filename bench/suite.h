@@ -31,6 +31,15 @@ struct SuiteOptions {
 // A scene's name in row names, where ':' and '/' are separators: see tools::source_name().
 std::string name_in_rows(const std::string& name_or_path);
 
+// A cell of the experiment: a composition on one kind of SIMD target.
+struct Cell {
+  const BackendInfo* backend;
+  SimdTarget target;    // scalar or best
+  std::string factors;  // "traversal:tiles/fill:spans/simd:avx512/with:hiz"
+};
+// Those that differ from another one in one factor.
+std::vector<Cell> cells();
+
 // Whether a quick run times this row. Nothing else decides what it leaves out.
 bool in_quick_run(const Row& row);
 

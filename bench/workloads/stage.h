@@ -9,7 +9,7 @@
 #include "bench/row.h"
 #include "bench/workloads/peers.h"
 #include "lab/measure.h"
-#include "raster/tile_list.h"
+#include "raster/tiles.h"
 
 namespace edgewise::bench {
 

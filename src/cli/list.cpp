@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "edgewise/backend.h"
@@ -26,11 +27,18 @@ std::string_view summary_of(Cull cull) {
   return kSummaries[static_cast<std::size_t>(cull)];
 }
 
-nlohmann::json as_json() {
+// The backends, and with `all` the other compositions.
+std::vector<BackendInfo> backend_list(bool all) {
+  std::vector<BackendInfo> list(backends().begin(), backends().end());
+  if (all) list.insert(list.end(), compositions().begin(), compositions().end());
+  return list;
+}
+
+nlohmann::json as_json(bool all) {
   nlohmann::json lists;
   for (const SceneInfo& scene : builtin_scenes())
     lists["scenes"].push_back({{"name", scene.name}, {"summary", scene.summary}, {"stream", scene.stream}});
-  for (const BackendInfo& backend : backends())
+  for (const BackendInfo& backend : backend_list(all))
     lists["backends"].push_back({{"name", backend.name}, {"summary", backend.summary}});
   for (const SimdTarget target : supported_targets()) lists["simd_targets"].push_back(name_of(target));
   lists["simd_best"] = name_of(resolve(SimdTarget::best));
@@ -39,9 +47,9 @@ nlohmann::json as_json() {
   return lists;
 }
 
-std::string as_text() {
+std::string as_text(bool all) {
   const auto line = [](std::string_view name, std::string_view summary) {
-    return summary.empty() ? fmt::format("  {}\n", name) : fmt::format("  {:<12} {}\n", name, summary);
+    return summary.empty() ? fmt::format("  {}\n", name) : fmt::format("  {:<21} {}\n", name, summary);
   };
   std::string text;
   for (const bool streams : {false, true}) {
@@ -53,7 +61,7 @@ std::string as_text() {
   text += line("*.tri", "triangle streams, written by edgewise capture");
   text += line("-", "standard input, with either of them");
   text += "Backends, the reference first:\n";
-  for (const BackendInfo& backend : backends()) text += line(backend.name, backend.summary);
+  for (const BackendInfo& backend : backend_list(all)) text += line(backend.name, backend.summary);
   text += "SIMD targets of this machine:\n";
   for (const SimdTarget target : supported_targets())
     text += line(name_of(target), target == resolve(SimdTarget::best) ? "best" : "");
@@ -67,8 +75,10 @@ std::string as_text() {
 Action add_list(CLI::App& command) {
   const auto in_json = std::make_shared<bool>(false);
   command.add_flag("--json", *in_json, "Print JSON");
-  return [in_json] {
-    print(*in_json ? json_text(as_json(), 2) + "\n" : as_text());
+  const auto all = std::make_shared<bool>(false);
+  command.add_flag("--all", *all, "Also list compositions of the backends' parts");
+  return [in_json, all] {
+    print(*in_json ? json_text(as_json(*all), 2) + "\n" : as_text(*all));
     return kDone;
   };
 }

@@ -141,7 +141,11 @@ struct BackendInfo {
 // any thread may call.
 std::span<const BackendInfo> backends();
 
-// Throws std::invalid_argument, with the nearest known name, for an unknown one.
+// Other compositions of the parts that the backends are made of, for experiments. They draw the same picture.
+// Their names are TRAVERSAL+FILL[+hiz][+masks]; src/raster/README.md explains the parts.
+std::span<const BackendInfo> compositions();
+
+// A backend or composition. Throws std::invalid_argument, with the nearest known name, for an unknown name.
 const BackendInfo& find_backend(std::string_view name);
 
 // Draws the edges of triangles only, one pixel wide, by an exact rule of its own (raster/wireframe.cpp). Its

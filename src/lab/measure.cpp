@@ -9,6 +9,7 @@
 
 #include "edgewise/contract.h"
 #include "lab/exact_spans.h"
+#include "raster/tiles.h"
 
 namespace edgewise::lab {
 
@@ -50,7 +51,7 @@ std::string describe(const TileOptions& options) {
 }
 
 std::unique_ptr<Backend> make(const BackendInfo& info, const TileOptions& options) {
-  return info.name == "tiled" ? make_tiled(options) : info.make();
+  return info.name == "tiled" ? make_tiles(tile_edges, options) : info.make();
 }
 
 void poison(Framebuffer& frame) {

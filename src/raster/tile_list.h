@@ -11,15 +11,10 @@
 #include <vector>
 
 #include "edgewise/backend.h"
-#include "edgewise/simd_target.h"
 #include "raster/binning/bins.h"
+#include "raster/clear.h"
 
 namespace edgewise {
-
-// Tiles of one row, columns begin … end - 1.
-struct TileSpan {
-  int begin, end;
-};
 
 class TileList {
  public:
@@ -54,9 +49,9 @@ class TileList {
         const bool is_cleared = !in_buffer && (part.clear || !is_empty);
         if (in_buffer) tasks_.push_back({cell, row, y0, y0 + height});
         if (is_cleared && after_cleared)
-          ++clear_.back().end;
+          clear_.back().end += side;
         else if (is_cleared)
-          clear_.push_back({column, column + 1});
+          clear_.push_back({column * side, (column + 1) * side});
         if (!in_buffer && !is_empty) light_.push_back(cell);
         after_cleared = is_cleared;
       }
@@ -70,8 +65,9 @@ class TileList {
   }
 
   std::span<const Task> tasks() const { return tasks_; }
-  // The empty and the light tiles of a row; if nothing is cleared, only the light ones.
-  std::span<const TileSpan> tiles_to_clear(int row) const { return of_row(clear_, row_begin_, row); }
+  // Those of the empty and the light tiles of a row of tiles, which may pass the frame's right side; if
+  // nothing is cleared, only the light ones.
+  std::span<const Interval> columns_to_clear(int row) const { return of_row(clear_, row_begin_, row); }
   // The cells of the light tiles of a row.
   std::span<const int> light_tiles(int row) const { return of_row(light_, light_begin_, row); }
 
@@ -85,31 +81,10 @@ class TileList {
 
   static constexpr int kLeastRows = 8;  // px, of a task that clears a part of a row's empty and light tiles
   std::vector<Task> tasks_;
-  std::vector<TileSpan> clear_;
+  std::vector<Interval> clear_;
   std::vector<int> light_;
   // Index in clear_ and in light_ of each row's first; then their sizes.
   std::vector<std::size_t> row_begin_, light_begin_;
 };
-
-// What drawing in tiles keeps between frames.
-struct TileScratch {
-  Bins bins;
-  TileList list;
-};
-
-// Clears empty and light tiles, or a band. All those of a row are cleared together, pixel row by pixel row:
-// long consecutive stores use the memory's bandwidth better than the short rows of one tile after the other.
-struct ClearTask {
-  std::span<const TileSpan> tiles;  // of one row
-  int y0, y1;                       // the pixel rows y0 … y1 - 1
-  int size_log2;                    // px, of a tile
-  FramePart part;
-  bool streaming;  // requested
-};
-
-using ClearKernel = void (*)(const ClearTask&);
-
-// `target` must be resolved.
-ClearKernel clear_kernel(SimdTarget target);
 
 }  // namespace edgewise

@@ -1,12 +1,8 @@
-// What the backend `tiled` can leave out or choose, for measurements and tests. No option changes a bit of
-// the picture. Internal: not installed.
+// What drawing in tiles can leave out or choose, for compositions, measurements and tests. No option changes
+// a bit of the picture. Internal: not installed.
 #pragma once
 
 #include <compare>
-#include <memory>
-
-#include "edgewise/backend.h"
-
 namespace edgewise {
 
 // How finished tiles are copied to the frame. Streaming (non-temporal) stores save reading the frame's old
@@ -15,7 +11,7 @@ namespace edgewise {
 enum class TileStore {
   cached,
   streaming,
-  automatic  // tile_store_for() in raster/tiles.h
+  automatic  // tile_store_for() in raster/policy.h
 };
 
 struct TileOptions {
@@ -26,7 +22,5 @@ struct TileOptions {
 
   auto operator<=>(const TileOptions&) const = default;
 };
-
-std::unique_ptr<Backend> make_tiled(const TileOptions& options);
 
 }  // namespace edgewise

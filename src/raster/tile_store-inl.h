@@ -8,8 +8,8 @@
 #include <span>
 
 #include "edgewise/contract.h"
+#include "raster/kernels.h"
 #include "raster/simd/lanes-inl.h"
-#include "raster/tile_task.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_STORE_INL_H) == defined(HWY_TARGET_TOGGLE)

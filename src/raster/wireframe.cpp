@@ -26,7 +26,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "raster/bands.h"
+#include "core/parallel.h"
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
+#include "raster/clear.h"
 
 namespace edgewise {
 
@@ -80,7 +83,7 @@ struct PixelRange {
 };
 
 // The part of a range of u where floor((n0 + 256 dv u) / (256 du)) lies in `rows`.
-PixelRange clip_to(PixelRange u, RowRange rows, std::int64_t n0, std::int64_t dv, std::int64_t du) {
+PixelRange clip_to(PixelRange u, Interval rows, std::int64_t n0, std::int64_t dv, std::int64_t du) {
   const std::int64_t low = rows.begin * du * kSub - n0, high = rows.end * du * kSub - n0, step = dv * kSub;
   if (dv > 0) return {std::max(u.begin, ceil_divide(low, step)), std::min(u.end, ceil_divide(high, step))};
   if (dv < 0)
@@ -91,7 +94,7 @@ PixelRange clip_to(PixelRange u, RowRange rows, std::int64_t n0, std::int64_t dv
 
 class Edges {
  public:
-  Edges(const FramePart& part, RowRange rows)
+  Edges(const FramePart& part, Interval rows)
       : frame_(part.frame), columns_{part.x0, part.frame.width}, rows_(rows) {}
 
   void draw(const ScreenTriangle& t) const {
@@ -127,7 +130,7 @@ class Edges {
   template <bool kAlongX>
   void draw_between(Point a, Point b, std::uint32_t payload) const {
     if (a.u > b.u) std::swap(a, b);
-    const RowRange along = kAlongX ? columns_ : rows_, across = kAlongX ? rows_ : columns_;
+    const Interval along = kAlongX ? columns_ : rows_, across = kAlongX ? rows_ : columns_;
     PixelRange range{std::max(first_sample(a.u), along.begin), std::min(first_sample(b.u), along.end)};
     if (range.begin >= range.end) return;
     const std::int64_t du = b.u - a.u, dv = b.v - a.v, dz = b.z - a.z;
@@ -144,7 +147,7 @@ class Edges {
   }
 
   FrameView frame_;
-  RowRange columns_, rows_;
+  Interval columns_, rows_;
 };
 
 class Wireframe final : public Backend {
@@ -157,9 +160,11 @@ class Wireframe final : public Backend {
     const auto row = [&](int band) {
       return part.y0 + static_cast<int>(std::int64_t{band} * height / bands);
     };
+    const ClearKernel clear = clear_kernel(execution.target);
     parallel_for(execution.threads, bands, [&](int band) {
-      const RowRange rows{row(band), row(band + 1)};
-      clear_rows(part, rows);
+      const Interval rows{row(band), row(band + 1)};
+      const Interval columns{part.x0, part.frame.width};
+      if (part.clear) clear({{&columns, 1}, rows.begin, rows.end, part});
       const Edges edges(part, rows);
       for (const ScreenTriangle& triangle : triangles) edges.draw(triangle);
     });

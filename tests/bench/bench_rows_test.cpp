@@ -20,7 +20,6 @@
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "edgewise/contract.h"
-#include "lab/cells/cells.h"
 #include "lab/engine/engine.h"
 #include "message_of.h"
 #include "run_program.h"
@@ -101,7 +100,7 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
   for (const lab::PeerInfo& peer : lab::benchmark_peers()) of_peers += peer.most_threads + peer.own_clock;
   constexpr std::size_t kOfOtherSizes = 8;
   EXPECT_EQ(names.size(), 3 + 6 * backends().size() + static_cast<std::size_t>(of_peers + 2 * narrower) +
-                              lab::cells().size() * (tools::default_threads() > 1 ? 2 : 1) + kOfOtherSizes);
+                              cells().size() * (tools::default_threads() > 1 ? 2 : 1) + kOfOtherSizes);
 }
 
 TEST(BenchSuite, TimesScenesWithACameraAtOtherSizes) {
@@ -207,11 +206,11 @@ TEST(BenchSuite, TimesCellsThatDrawTheReference) {
   std::map<std::string, Row> rows = small_rows(160, 90);
   Stage stage;
   for (const SceneInfo& scene : builtin_scenes())
-    for (const lab::Cell& cell : lab::cells())
+    for (const Cell& cell : cells())
       for (const int threads : {1, tools::default_threads()}) {
-        const auto row = rows.find("cell/" + std::string(scene.name) + "/" + factors(cell) +
+        const auto row = rows.find("cell/" + std::string(scene.name) + "/" + cell.factors +
                                    "/threads:" + std::to_string(threads));
-        ASSERT_NE(row, rows.end()) << scene.name << ", " << factors(cell);
+        ASSERT_NE(row, rows.end()) << scene.name << ", " << cell.factors;
         EXPECT_FALSE(is_plain(row->second)) << row->first;
         row->second.workload->prepare(true);
         stage.compare(row->second);

@@ -31,10 +31,9 @@ HWY_AFTER_NAMESPACE();
 #include "frontend/shade.h"
 #include "frontend/tasks.h"
 #include "frontend/transform.h"
-#include "raster/bands.h"
 #include "raster/binning/cell_boxes.h"
 #include "raster/binning/mask_finder.h"
-#include "raster/tile_task.h"
+#include "raster/kernels.h"
 
 namespace edgewise {
 namespace {
@@ -74,9 +73,10 @@ void expect_own_kernels(Kernel (*kernel_of)(SimdTarget), const char* name) {
 }
 
 TEST(SimdTargets, HaveDifferentKernels) {
-  expect_own_kernels(tile_kernel, "tile");
-  expect_own_kernels(scanline_kernel, "scanline");
-  expect_own_kernels(span_kernel, "spans");
+  expect_own_kernels(frame_spans, "spans in the frame");
+  expect_own_kernels(frame_edges, "edges in the frame");
+  expect_own_kernels(tile_spans, "spans in tiles");
+  expect_own_kernels(tile_edges, "edges in tiles");
   expect_own_kernels(cell_box_kernel, "cell boxes");
   expect_own_kernels(mask_finder, "coverage masks");
   expect_own_kernels(transform_kernel, "transform");

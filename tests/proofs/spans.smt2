@@ -1,4 +1,4 @@
-; Spans, by edges walked in binary fractions (tiled_spans_setup-inl.h) or with a remainder (edge_walk.h). Theories:
+; Spans, by edges walked in binary fractions (line_lanes-inl.h) or with a remainder (edge_walk.h). Theories:
 ; nonlinear real arithmetic, with a rounding to double as a factor 1 + e, |e| <= 2^-53; linear real arithmetic.
 ;
 ; In units of 2^-43 px, a step or start is a quotient of integers, computed with two roundings to double (the quotient
@@ -6,7 +6,7 @@
 
 (define-const unit Real 8796093022208.0)  ; units per px, 2^43
 (define-fun ulp ((e Real)) Bool (between (- (/ 1.0 9007199254740992.0)) e (/ 1.0 9007199254740992.0)))
-(define-const kUnitBits Int 43)           ; = kUnitBits of src/lab/tiled_spans/tiled_spans_setup-inl.h
+(define-const kUnitBits Int 43)           ; = kUnitBits of src/raster/spans/line_lanes-inl.h
 
 ;; claim step_off: Steps below 2^12 px per row are off by less than 575 units over 63 rows.
 (declare-const exact Real) (declare-const e1 Real) (declare-const e2 Real) (declare-const step Real)

@@ -180,7 +180,7 @@ TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
 }
 
 TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {
-  // Slopes of about 1 in 4096, below which `tiled_spans` takes another code path, and less.
+  // Slopes of about 1 in 4096, below which spans in tiles take another code path, and less.
   Random random(5);
   std::vector<ScreenTriangle> triangles;
   for (std::uint32_t id = 0; id < 400; ++id) {

@@ -13,7 +13,7 @@
 
 #include "core/llc.h"
 #include "lab/measure.h"
-#include "raster/tile_task.h"
+#include "raster/kernels.h"
 #include "raster/tiles.h"
 #include "support.h"
 
@@ -231,7 +231,7 @@ TEST(LightTiles, AreDrawnLikeOthers) {
           StoredTriangles stored(triangles);
           draw_in_tiles(stored, {.frame = frame.view(), .background = 42}, {threads, size, target},
                         {.coverage_masks = false, .tile_store = TileStore::cached}, scratch,
-                        tile_kernel(target), span_kernel(target));
+                        tile_edges(target), frame_spans(target));
           testing::expect_same(expected, frame, testing::describe(Execution{threads, size, target}));
           EXPECT_GT(light_tiles(scratch.list, 4), 3);
           EXPECT_TRUE(
@@ -245,16 +245,16 @@ TEST(LightTiles, AreThoseOfFewTrianglesInCachedFrames) {
   std::vector<ScreenTriangle> triangles;
   for (int column = 0; column < 5; ++column) cover_tile(triangles, column, 0, column, kSize);
   Framebuffer frame(5 * kSize, kSize);
-  const auto light = [&](const TileOptions& options, BandKernel kernel, int width) {
+  const auto light = [&](const TileOptions& options, FrameKernel kernel, int width) {
     TileScratch scratch;
     StoredTriangles stored(triangles);
     FrameView view = frame.view();
     view.width = width;
     const SimdTarget target = resolve(SimdTarget::best);
-    draw_in_tiles(stored, {.frame = view}, {1, kSize, target}, options, scratch, tile_kernel(target), kernel);
+    draw_in_tiles(stored, {.frame = view}, {1, kSize, target}, options, scratch, tile_edges(target), kernel);
     return light_tiles(scratch.list, 1);
   };
-  const BandKernel kernel = span_kernel(resolve(SimdTarget::best));
+  const FrameKernel kernel = frame_spans(resolve(SimdTarget::best));
   EXPECT_EQ(light({.tile_store = TileStore::cached}, kernel, 5 * kSize), 2)
       << "one and two triangles, not three and four";
   EXPECT_EQ(light({.tile_store = TileStore::cached}, kernel, 3 * kSize - 1), 1) << "not a tile that is cut";
@@ -277,7 +277,7 @@ TEST(LightTiles, CountTheTrianglesOfAllSlices) {
     StoredTriangles stored(triangles);
     const SimdTarget target = resolve(SimdTarget::best);
     draw_in_tiles(stored, {.frame = frame.view(), .background = 42}, {2, kSize, target},
-                  {.tile_store = TileStore::cached}, scratch, tile_kernel(target), span_kernel(target));
+                  {.tile_store = TileStore::cached}, scratch, tile_edges(target), frame_spans(target));
     testing::expect_same(expected, frame, std::to_string(in_tile));
     EXPECT_EQ(light_tiles(scratch.list, 1), in_tile == 2 ? 1 : 0);
   }

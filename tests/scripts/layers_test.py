@@ -32,12 +32,12 @@ PUBLIC_BELOW = {  # what the public headers of a room include
     "queries": ["edgewise/scene.h", "edgewise/frontend.h", "edgewise/framebuffer.h"],
     "raster": ["edgewise/scene.h"],  # declares src/draw.cpp's draw()
 }
-TILES = ["tile_list.h", "tile_options.h", "tile_store-inl.h", "tile_task.h", "tiles.h"]  # shared by the rooms that draw tiles
+FILLS = ["kernels.h", "frame_lanes-inl.h", "tile_store-inl.h"]  # shared by the rooms of fills
 ROOMS_BELOW = {  # inside src/raster: rooms and headers
     "simd": [],
     "binning": ["simd"],
-    "tiled": ["simd", "binning", *TILES],
-    "scanline": ["simd", "bands.h"],
+    "spans": ["simd", "binning", *FILLS],
+    "edges": ["simd", "binning", *FILLS],
 }
 
 

@@ -16,7 +16,7 @@
 #include "edgewise/framebuffer.h"
 #include "lab/method.h"
 #include "lab/truth.h"
-#include "raster/tile_list.h"
+#include "raster/tiles.h"
 
 namespace edgewise::lab {
 

@@ -60,7 +60,7 @@ CoverageMethod make(EngineArithmetic arithmetic, const MethodInfo& info, const C
           .engine = true};
 }
 
-constexpr std::string_view kSource = "the SIMD engine of src/raster/tiled";
+constexpr std::string_view kSource = "the SIMD engine of src/raster/edges";
 constexpr std::string_view kExact = "exact coverage of the positions snapped to 1/256 px";
 // Snapping errs by half a unit on each axis: sqrt(2) / 512.
 constexpr double kSnap_px = 0.00277;

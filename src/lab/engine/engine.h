@@ -8,8 +8,8 @@
 
 #include "edgewise/backend.h"
 #include "lab/coverage/coverage.h"
-#include "raster/tile_list.h"
-#include "raster/tile_task.h"
+#include "raster/kernels.h"
+#include "raster/tiles.h"
 
 namespace edgewise::lab {
 

@@ -8,8 +8,8 @@
 #include "core/kernel_table.h"
 #include "lab/engine/engine.h"
 #include "lab/engine/other_arithmetic-inl.h"
-#include "raster/tile_task.h"
-#include "raster/tiled/tile_painter-inl.h"
+#include "raster/edges/tile_painter-inl.h"
+#include "raster/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -40,7 +40,7 @@ HWY_AFTER_NAMESPACE();
 namespace edgewise {
 
 TileKernel lab::engine_kernel(EngineArithmetic arithmetic, SimdTarget target) {
-  return arithmetic == EngineArithmetic::exact ? tile_kernel(target)
+  return arithmetic == EngineArithmetic::exact ? tile_edges(target)
                                                : EDGEWISE_KERNEL(engine_tile, target)(arithmetic);
 }
 

@@ -19,8 +19,8 @@
 #include <type_traits>
 
 #include "edgewise/contract.h"
+#include "raster/edges/tile_arithmetic-inl.h"
 #include "raster/simd/lanes-inl.h"
-#include "raster/tiled/tile_arithmetic-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_OTHER_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -1,14 +1,13 @@
-// The kernel of `tiled_spans`.
+// Fills triangles by their spans, in a tile's buffer.
 //
-// 1. Triangles are set up a vector at a time (tiled_spans_setup-inl.h). Their spans are found a vector of
-// rows
-//    at a time (tiled_spans_rows-inl.h), and filled a vector of pixels at a time (tiled_spans_list-inl.h).
+// 1. Triangles are set up a vector at a time. Their spans are found a vector of rows at a time
+//    (span_rows-inl.h), and filled a vector of pixels at a time (span_list-inl.h).
 // 2. Spans end at the sides of a tile. Spans as long as the image would need fewer set-ups, but a band of
 //    rows does not fit the L1 cache, while a tile of 32 KB does. The tile is stored to the frame once, with
 //    the background where its depths are still clear. It lies in one depth cell (rule 6), so a span has one
 //    depth plane.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "lab/tiled_spans/tiled_spans_kernel.cpp"
+#define HWY_TARGET_INCLUDE "raster/spans/tile_spans.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -18,10 +17,9 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
-#include "lab/tiled_spans/tiled_spans.h"
-#include "lab/tiled_spans/tiled_spans_list-inl.h"
-#include "raster/scanline/edge_walk.h"
-#include "raster/tile_task.h"
+#include "raster/kernels.h"
+#include "raster/spans/edge_walk.h"
+#include "raster/spans/span_list-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -139,7 +137,7 @@ void write_rows(const FramePlane& to, const Pixels& pixels) {
 
 }  // namespace
 
-void draw_tile_in_spans(const TileTask& task) {
+void draw_spans_in_tile(const TileTask& task) {
   SpanPainter painter(task);
   task.bins->for_each_segment_ahead(task.cell, [&](const Bins::Segment& segment) { painter.draw(segment); });
   painter.draw_rest();
@@ -153,5 +151,5 @@ void draw_tile_in_spans(const TileTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-EDGEWISE_DEFINE_KERNEL(TileKernel, lab::tiled_spans_kernel, draw_tile_in_spans)
+EDGEWISE_DEFINE_KERNEL(TileKernel, tile_spans, draw_spans_in_tile)
 #endif

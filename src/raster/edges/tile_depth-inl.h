@@ -7,9 +7,9 @@
 #include <cstdlib>
 
 #include "edgewise/contract.h"
+#include "raster/edges/tile_linear-inl.h"
+#include "raster/kernels.h"
 #include "raster/simd/depth_lanes-inl.h"
-#include "raster/tile_task.h"
-#include "raster/tiled/tile_linear-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_DEPTH_INL_H) == defined(HWY_TARGET_TOGGLE)

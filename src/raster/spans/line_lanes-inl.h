@@ -1,4 +1,5 @@
-// Sets triangles up for spans in one tile, a vector of triangles at a time.
+// The edges of a vector of triangles as lines that are stepped row by row, to find spans in an area of a
+// frame: a tile of 64 x 64 px, or 32 rows of any width.
 //
 // Where a row's sample lies at height s, the edge from p to q is at x = p.x + (s - p.y) dx / dy. The first
 // pixel whose sample is not left of it is the ceiling of v = (x - 128) / 256. A span goes from the largest of
@@ -13,29 +14,26 @@
 // - Steps per row below 2^12 px = 2^55 units are off by 2^-52 of that, and 1 for rounding: over 63 rows,
 //   below 575 units.
 // - A start within 2^18 + 2^15 px (2^61.2 units) of the edge's vertex is off by 2^-52 of that: below 650. A
-//   line that starts farther away does not reach the tile in 63 rows, not even with its start clamped to
+//   line that starts farther away does not reach the area in its rows, not even with its start clamped to
 //   2^18 + 2^17 px.
-// - Start, steps and the at most 2^15 px from vertex to tile sum up to less than 2^20 px = 2^63 units.
+// - Start, steps and the at most 2^15 px from vertex to area sum up to less than 2^20 px = 2^63 units.
 // An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. Its triangle is
-// walked by integers with a remainder (raster/scanline/edge_walk.h). So is a triangle whose depth gradient is
-// too large for doubles. proofs/spans.smt2 proves these claims, for a tile and for a band of 32 rows
-// (lab/cells).
+// walked by integers with a remainder (raster/spans/edge_walk.h). So is a triangle whose depth gradient is
+// too large for doubles. proofs/spans.smt2 proves these claims.
 #include <hwy/highway.h>
 
 #include <cstdint>
-#include <span>
 
 #include "edgewise/contract.h"
 #include "raster/simd/depth_lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
-#include "raster/tile_task.h"
 
 // Included once per SIMD target.
-#if defined(EDGEWISE_TILED_SPANS_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_TILED_SPANS_SETUP_INL_H
-#undef EDGEWISE_TILED_SPANS_SETUP_INL_H
+#if defined(EDGEWISE_LINE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_LINE_LANES_INL_H
+#undef EDGEWISE_LINE_LANES_INL_H
 #else
-#define EDGEWISE_TILED_SPANS_SETUP_INL_H
+#define EDGEWISE_LINE_LANES_INL_H
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -115,55 +113,6 @@ HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes& t, const Area& area, i
     flat = hn::Or(flat, line.flat);
   }
   return flat;
-}
-
-// A batch of triangles, set up for one tile. Rows and pixels are relative to the tile.
-struct alignas(64) SpanBatch {
-  BatchLine line[3];
-  struct Depth {
-    std::int32_t first[kBatch];  // at the first pixel of the first row
-    std::int32_t x[kBatch], y[kBatch];
-  } depth;
-  std::int32_t nearest[kBatch];  // lower bound of the depth of the triangle's pixels
-  std::int32_t payload[kBatch];
-  std::int32_t x0[kBatch], x1[kBatch], y0[kBatch], y1[kBatch];  // the box
-};
-
-// Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
-HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
-                                   int k) {
-  const D64 d;
-  const V64 zero = hn::Zero(d);
-  const TriangleLanes t = load(task.triangles, indices + k);
-  const auto [x0, x1] = sample_range(t.x, task.x0, task.width());
-  const auto [y0, y1] = sample_range(t.y, task.y0, task.height());
-  const Area area = area_of(t);
-  const V32 filled = hn::VecFromMask(D32{}, hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1)));
-  const auto accepted = hn::And(hn::Gt(area.value, zero), hn::Lt(hn::ShiftLeft<32>(as64(filled)), zero));
-
-  const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(task.y0)));
-  const auto flat = store_lines(t, area, task.x0, first_sample, out.line, k);
-  const DepthLanes depth = depth_lanes(t, area, task.x0, task.y0);
-  const V32 first = hn::Add(depth.base(), hn::Mul(depth.y, y0));
-  store(first, out.depth.first + k);
-  store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
-  const V32 at_box = hn::Add(first, hn::Mul(depth.x, x0));
-  const auto fall = [](V32 step, V32 begin, V32 end) {
-    return hn::Mul(hn::Min(step, hn::Zero(D32{})), hn::Sub(hn::Sub(end, begin), set32(1)));
-  };
-  const V32 least = hn::Add(at_box, hn::Add(fall(depth.x, x0, x1), fall(depth.y, y0, y1)));
-  store(hn::IfThenElse(depth.is_flat(), least, nearest_vertex(t)), out.nearest + k);
-  store(t.payload, out.payload + k);
-  store(x0, out.x0 + k), store(x1, out.x1 + k);
-  store(y0, out.y0 + k), store(y1, out.y1 + k);
-  const auto integer_walk = hn::Or(flat, hn::Not(depth.exact));
-  return {mask_bits(accepted), mask_bits(hn::And(integer_walk, accepted))};
-}
-
-// Sets up triangles[indices[i]] for all i. Triangles with a scalar set-up are walked by integers.
-inline BatchBits set_up(const TileTask& task, std::span<const std::uint32_t> indices, SpanBatch& out) {
-  return set_up_batch(
-      indices, [&](const std::uint32_t* padded, int k) { return set_up_vector(task, padded, out, k); });
 }
 
 #endif

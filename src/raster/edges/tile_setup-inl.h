@@ -10,11 +10,11 @@
 
 #include "edgewise/contract.h"
 #include "raster/binning/cell_boxes.h"
+#include "raster/edges/tile_arithmetic-inl.h"
+#include "raster/edges/tile_depth-inl.h"
+#include "raster/kernels.h"
 #include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
-#include "raster/tile_task.h"
-#include "raster/tiled/tile_arithmetic-inl.h"
-#include "raster/tiled/tile_depth-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -1,4 +1,4 @@
-// The tile kernel.
+// Draws triangles by edge functions, in a tile's buffer.
 //
 // 1. Depth and payload of the tile live in a buffer of 32 KB. With its lists a tile uses about 46 KB, which
 //    fits an L1 cache of 48 KB; with one of 32 KB, part of it lies in L2. The buffer is stored to the frame
@@ -19,19 +19,19 @@
 // 6. Small triangles arrive as coverage masks, made by binning (mask_finder.cpp), and are drawn without a
 //    branch (tile_masks-inl.h).
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raster/tiled/tile_kernel.cpp"
+#define HWY_TARGET_INCLUDE "raster/edges/tile_edges.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "core/kernel_table.h"
-#include "raster/tile_task.h"
-#include "raster/tiled/tile_painter-inl.h"
+#include "raster/edges/tile_painter-inl.h"
+#include "raster/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
-void draw_tile(const TileTask& task) {
+void draw_edges_in_tile(const TileTask& task) {
   draw_tile_in<ContractNumbers>(task);
 }
 
@@ -40,5 +40,5 @@ void draw_tile(const TileTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-EDGEWISE_DEFINE_KERNEL(TileKernel, tile_kernel, draw_tile)
+EDGEWISE_DEFINE_KERNEL(TileKernel, tile_edges, draw_edges_in_tile)
 #endif

@@ -8,11 +8,11 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
+#include "raster/edges/tile_linear-inl.h"
+#include "raster/kernels.h"
 #include "raster/simd/depth_lanes-inl.h"
 #include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
-#include "raster/tile_task.h"
-#include "raster/tiled/tile_linear-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_ARITHMETIC_INL_H) == defined(HWY_TARGET_TOGGLE)

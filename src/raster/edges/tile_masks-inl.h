@@ -6,7 +6,7 @@
 #include <span>
 
 #include "raster/binning/mask_lists.h"
-#include "raster/tiled/tile_blocks-inl.h"
+#include "raster/edges/tile_blocks-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_MASKS_INL_H) == defined(HWY_TARGET_TOGGLE)

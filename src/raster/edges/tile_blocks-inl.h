@@ -8,10 +8,10 @@
 #include <cstring>
 
 #include "edgewise/contract.h"
+#include "raster/edges/tile_setup-inl.h"
+#include "raster/kernels.h"
 #include "raster/simd/hiz-inl.h"
 #include "raster/tile_store-inl.h"
-#include "raster/tile_task.h"
-#include "raster/tiled/tile_setup-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_BLOCKS_INL_H) == defined(HWY_TARGET_TOGGLE)

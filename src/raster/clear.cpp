@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raster/clear_tiles.cpp"
+#define HWY_TARGET_INCLUDE "raster/clear.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
-#include "raster/tile_list.h"
+#include "raster/clear.h"
 #include "raster/tile_store-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,17 +21,17 @@ void fill_plane(const ClearTask& task, std::uint32_t* plane, std::uint32_t value
   const FrameView& frame = task.part.frame;
   const V v = hn::Set(D{}, static_cast<std::int32_t>(value));
   for (int y = task.y0; y < task.y1; ++y)
-    for (const TileSpan& tiles : task.tiles) {
+    for (const Interval& columns : task.columns) {
       std::uint32_t* const row = plane + y * frame.stride;
-      std::uint32_t* at = row + std::max(tiles.begin << task.size_log2, task.part.x0);
-      std::uint32_t* const end = row + std::min(tiles.end << task.size_log2, frame.width);
+      std::uint32_t* at = row + std::max(columns.begin, task.part.x0);
+      std::uint32_t* const end = row + std::min(columns.end, frame.width);
       const std::ptrdiff_t ahead = y + 1 < task.y1 ? frame.stride : 0;
       for (; at + kLanes <= end; at += kLanes) store(v, reinterpret_cast<std::int32_t*>(at), ahead);
       std::fill(at, end, value);
     }
 }
 
-void clear_tiles(const ClearTask& task) {
+void clear_columns(const ClearTask& task) {
   const FrameView& frame = task.part.frame;
   const auto cached = [](V v, std::int32_t* at, std::ptrdiff_t ahead) {
     if (kLanes > 1) __builtin_prefetch(at + ahead, 1);  // pixel by pixel, it would cost more than it saves
@@ -55,5 +55,5 @@ void clear_tiles(const ClearTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-EDGEWISE_DEFINE_KERNEL(ClearKernel, clear_kernel, clear_tiles)
+EDGEWISE_DEFINE_KERNEL(ClearKernel, clear_kernel, clear_columns)
 #endif

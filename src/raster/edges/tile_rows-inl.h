@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
-#include "raster/tiled/tile_blocks-inl.h"
-#include "raster/tiled/tile_candidates-inl.h"
-#include "raster/tiled/tile_setup-inl.h"
+#include "raster/edges/tile_blocks-inl.h"
+#include "raster/edges/tile_candidates-inl.h"
+#include "raster/edges/tile_setup-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -1,19 +1,23 @@
-// A triangle's spans in one tile, a vector of rows at a time: one 64-bit lane per row, with 32-bit values in
-// its upper half.
+// Sets triangles up for one tile, a vector at a time, and finds a triangle's spans there, a vector of rows at
+// a time: one 64-bit lane per row, with 32-bit values in its upper half.
 #include <hwy/highway.h>
 
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "edgewise/contract.h"
-#include "lab/tiled_spans/tiled_spans_setup-inl.h"
+#include "raster/kernels.h"
+#include "raster/simd/depth_lanes-inl.h"
+#include "raster/simd/triangle_lanes-inl.h"
+#include "raster/spans/line_lanes-inl.h"
 
 // Included once per SIMD target.
-#if defined(EDGEWISE_TILED_SPANS_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_TILED_SPANS_ROWS_INL_H
-#undef EDGEWISE_TILED_SPANS_ROWS_INL_H
+#if defined(EDGEWISE_SPAN_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_SPAN_ROWS_INL_H
+#undef EDGEWISE_SPAN_ROWS_INL_H
 #else
-#define EDGEWISE_TILED_SPANS_ROWS_INL_H
+#define EDGEWISE_SPAN_ROWS_INL_H
 #endif
 
 #if HWY_TARGET != HWY_SCALAR
@@ -23,6 +27,57 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
+
+// A batch of triangles, set up for one tile. Rows and pixels are relative to the tile.
+struct alignas(64) SpanBatch {
+  BatchLine line[3];
+  struct Depth {
+    std::int32_t first[kBatch];  // at the first pixel of the first row
+    std::int32_t x[kBatch], y[kBatch];
+  } depth;
+  std::int32_t nearest[kBatch];  // lower bound of the depth of the triangle's pixels
+  std::int32_t payload[kBatch];
+  std::int32_t x0[kBatch], x1[kBatch], y0[kBatch], y1[kBatch];  // the box
+};
+
+// Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
+HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
+                                   int k) {
+  const D64 d;
+  const V64 zero = hn::Zero(d);
+  const TriangleLanes t = load(task.triangles, indices + k);
+  const auto [x0, x1] = sample_range(t.x, task.x0, task.width());
+  const auto [y0, y1] = sample_range(t.y, task.y0, task.height());
+  const Area area = area_of(t);
+  const V32 filled = hn::VecFromMask(D32{}, hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1)));
+  const auto accepted = hn::And(hn::Gt(area.value, zero), hn::Lt(hn::ShiftLeft<32>(as64(filled)), zero));
+
+  const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(task.y0)));
+  const auto flat = store_lines(t, area, task.x0, first_sample, out.line, k);
+  const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
+  const DepthLanes depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
+  const V32 first = hn::Add(depth.base(), hn::Add(hn::Mul(depth.x, set32(in_cell_x)),
+                                                  hn::Mul(depth.y, hn::Add(y0, set32(in_cell_y)))));
+  store(first, out.depth.first + k);
+  store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
+  const V32 at_box = hn::Add(first, hn::Mul(depth.x, x0));
+  const auto fall = [](V32 step, V32 begin, V32 end) {
+    return hn::Mul(hn::Min(step, hn::Zero(D32{})), hn::Sub(hn::Sub(end, begin), set32(1)));
+  };
+  const V32 least = hn::Add(at_box, hn::Add(fall(depth.x, x0, x1), fall(depth.y, y0, y1)));
+  store(hn::IfThenElse(depth.is_flat(), least, nearest_vertex(t)), out.nearest + k);
+  store(t.payload, out.payload + k);
+  store(x0, out.x0 + k), store(x1, out.x1 + k);
+  store(y0, out.y0 + k), store(y1, out.y1 + k);
+  const auto integer_walk = hn::Or(flat, hn::Not(depth.exact));
+  return {mask_bits(accepted), mask_bits(hn::And(integer_walk, accepted))};
+}
+
+// Sets up triangles[indices[i]] for all i. Triangles with a scalar set-up are walked by integers.
+inline BatchBits set_up(const TileTask& task, std::span<const std::uint32_t> indices, SpanBatch& out) {
+  return set_up_batch(
+      indices, [&](const std::uint32_t* padded, int k) { return set_up_vector(task, padded, out, k); });
+}
 
 constexpr int kRows = static_cast<int>(hn::MaxLanes(D64{}));
 constexpr int kRowsLog2 = std::countr_zero(static_cast<unsigned>(kRows));

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
-#include "raster/tiled/tile_blocks-inl.h"
-#include "raster/tiled/tile_setup-inl.h"
+#include "raster/edges/tile_blocks-inl.h"
+#include "raster/edges/tile_setup-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_SMALL_INL_H) == defined(HWY_TARGET_TOGGLE)

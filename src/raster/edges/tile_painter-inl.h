@@ -1,4 +1,4 @@
-// Draws a tile: its triangles, through a batch at a time, and its coverage masks. See tile_kernel.cpp.
+// Draws a tile: its triangles, through a batch at a time, and its coverage masks. See tile_edges.cpp.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 #include <span>
 
 #include "edgewise/contract.h"
-#include "raster/tiled/tile_blocks-inl.h"
-#include "raster/tiled/tile_candidates-inl.h"
-#include "raster/tiled/tile_masks-inl.h"
-#include "raster/tiled/tile_rows-inl.h"
-#include "raster/tiled/tile_setup-inl.h"
-#include "raster/tiled/tile_small-inl.h"
+#include "raster/edges/tile_blocks-inl.h"
+#include "raster/edges/tile_candidates-inl.h"
+#include "raster/edges/tile_masks-inl.h"
+#include "raster/edges/tile_rows-inl.h"
+#include "raster/edges/tile_setup-inl.h"
+#include "raster/edges/tile_small-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_PAINTER_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -14,17 +14,17 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
-#include "lab/tiled_spans/tiled_spans_rows-inl.h"
 #include "raster/binning/mask_lists.h"
 #include "raster/simd/hiz-inl.h"
+#include "raster/spans/span_rows-inl.h"
 #include "raster/tile_store-inl.h"
 
 // Included once per SIMD target.
-#if defined(EDGEWISE_TILED_SPANS_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_TILED_SPANS_LIST_INL_H
-#undef EDGEWISE_TILED_SPANS_LIST_INL_H
+#if defined(EDGEWISE_SPAN_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_SPAN_LIST_INL_H
+#undef EDGEWISE_SPAN_LIST_INL_H
 #else
-#define EDGEWISE_TILED_SPANS_LIST_INL_H
+#define EDGEWISE_SPAN_LIST_INL_H
 #endif
 
 #if HWY_TARGET != HWY_SCALAR

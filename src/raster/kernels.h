@@ -1,0 +1,57 @@
+// The tasks of the kernels that draw the triangles of a cell: in the frame itself, or in a tile's buffer.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
+#include "edgewise/simd_target.h"
+#include "raster/binning/bins.h"
+
+namespace edgewise {
+
+inline constexpr int kLongestVector = 16;  // px
+
+// Draws the triangles of a cell in the frame itself: those of a band, or of rows of a tile.
+struct FrameTask {
+  const Bins& bins;
+  int cell;
+  // Ends at kLongestVector or further right. Its rows lie in one row of depth cells.
+  //
+  // A vector of pixels begins at a multiple of its length or ends with the area. So it may begin left of the
+  // area, where it keeps what the frame holds. No other thread may draw there.
+  contract::PixelBox area;
+  FrameView frame;
+};
+using FrameKernel = void (*)(const FrameTask&);
+
+// Draws the triangles of a tile in a buffer sized for the L1 cache, and stores the buffer to the frame.
+struct TileTask {
+  const ScreenTriangle* triangles;
+  const Bins* bins;
+  int cell;       // index of the tile in `bins`
+  int x0, y0;     // px, the tile's first pixel; multiples of the tile's size
+  int size_log2;  // px; at most 6
+  FramePart part;
+  bool hierarchical_depth;  // TileOptions::hierarchical_depth
+  bool streaming;           // requested
+
+  int size() const { return 1 << size_log2; }  // px
+  // The tile's columns left() … width() - 1 and rows top() … height() - 1 are drawn, px. The kernel may also
+  // draw what lies left of or above them in its buffer, but must not store it.
+  int left() const { return std::max(part.x0 - x0, 0); }
+  int top() const { return std::max(part.y0 - y0, 0); }
+  int width() const { return std::min(size(), part.frame.width - x0); }
+  int height() const { return std::min(size(), part.frame.height - y0); }
+};
+using TileKernel = void (*)(const TileTask&);
+
+// The fills. `target` must be resolved.
+FrameKernel frame_boxes(SimdTarget target);  // tests all pixels of a triangle's box; the same for all targets
+FrameKernel frame_spans(SimdTarget target);
+FrameKernel frame_edges(SimdTarget target);
+TileKernel tile_spans(SimdTarget target);
+TileKernel tile_edges(SimdTarget target);
+
+}  // namespace edgewise
