@@ -79,28 +79,12 @@ HWY_INLINE V set(std::uint32_t v) {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The boxes of a vector of triangles in a task's area.
-struct BoxLanes {
-  V32 x0, x1, y0, y1;
-};
-HWY_INLINE BoxLanes box_lanes(const FrameTask& task, const TriangleLanes& t) {
-  const auto [x0, x1] = sample_range(t.x, task.area.x0, task.area.x1 - task.area.x0);
-  const auto [y0, y1] = sample_range(t.y, task.area.y0, task.area.y1 - task.area.y0);
-  const V32 left = set32(task.area.x0), top = set32(task.area.y0);
-  return {hn::Add(x0, left), hn::Add(x1, left), hn::Add(y0, top), hn::Add(y1, top)};
-}
-// The bits of a mask of 32-bit lanes, of which the lower one of each pair counts.
-HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
-  const D64 d;
-  return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(d)));
-}
 // Stores the boxes as entries k … of a batch. Returns the bits of triangles that are drawn.
 template <typename Batch>
 HWY_INLINE std::uint32_t store_box(const BoxLanes& box, const Area& area, Batch& out, int k) {
   store(box.x0, out.x0 + k), store(box.x1, out.x1 + k);
   store(box.y0, out.y0 + k), store(box.y1, out.y1 + k);
-  return lower_bits(hn::And(hn::Lt(box.x0, box.x1), hn::Lt(box.y0, box.y1))) &
-         mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
+  return lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
 }
 
 #endif

@@ -266,7 +266,7 @@ struct OtherArithmetic : Lanes {
     };
     const auto over_block = [&](auto v) { return in_px(hn::Add(v, hn::Add(v, v))); };
     const auto zero = hn::Zero(df);
-    const auto top_left = hn::Or(hn::Gt(a, zero), hn::And(hn::Eq(a, zero), hn::Gt(b, zero)));
+    const auto top_left = is_top_left(a, b);
     const auto up_x = hn::Max(a, zero), up_y = hn::Max(b, zero);
     const auto down_x = hn::Min(a, zero), down_y = hn::Min(b, zero);
     const auto rise = over_block(hn::Add(up_x, up_y)), fall = over_block(hn::Add(down_x, down_y));

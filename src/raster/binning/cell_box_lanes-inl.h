@@ -6,6 +6,7 @@
 #include "edgewise/contract.h"
 #include "raster/binning/cell_boxes.h"
 #include "raster/simd/record_lanes-inl.h"
+#include "raster/simd/rule_lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_CELL_BOX_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -33,7 +33,7 @@ std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, 
   std::uint64_t filled = 0;
   for (int i = 0; i < kPacket; i += kLanes) {
     const RecordLanes t(triangles + i, prefetch);
-    const BoxLanes box(t, grid.drawn());
+    const BoxLanes box(t.x, t.y, grid.drawn());
     store_cell_boxes(t, box, grid, i, out);
     filled |= std::uint64_t{mask_bits(box.filled)} << i;
   }

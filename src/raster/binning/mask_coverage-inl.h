@@ -10,6 +10,7 @@
 
 #include "raster/binning/mask_finder.h"
 #include "raster/simd/record_lanes-inl.h"
+#include "raster/simd/rule_lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_MASK_COVERAGE_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -149,8 +150,7 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   const V a[3] = {hn::Neg(dy1), minus(dy1, dy2), dy2}, b[3] = {dx1, minus(dx2, dx1), hn::Neg(dx2)};
   Crossings edge[3];
   for (int i = 0; i < 3; ++i) {
-    const auto top_left = hn::Or(hn::Gt(a[i], zero), hn::And(hn::Eq(a[i], zero), hn::Gt(b[i], zero)));
-    const V bias = hn::IfThenZeroElse(top_left, hn::Set(d, -1));
+    const V bias = hn::IfThenZeroElse(is_top_left(a[i], b[i]), hn::Set(d, -1));
     const V first = hn::Add(hn::Mul(a[i], minus(sx, t.x[i])), hn::Mul(b[i], minus(sy, t.y[i])));
     edge[i] = Crossings(a[i], b[i], hn::ShiftRight<kSubBits>(hn::Add(first, bias)));  // rule 5
   }
@@ -175,14 +175,7 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   const V inside[2] = {hn::And(covered[0], row_bits(upper_rows)), hn::And(covered[1], row_bits(lower_rows))};
   const auto covers = hn::And(hn::And(small, hn::Gt(area, zero)), hn::Ne(hn::Or(inside[0], inside[1]), zero));
 
-  // The anchor (rule 6).
-  V ax = t.x[0], ay = t.y[0], az = t.z[0];
-  for (int i = 1; i < 3; ++i) {
-    const auto above = hn::Or(hn::Lt(t.y[i], ay), hn::And(hn::Eq(t.y[i], ay), hn::Lt(t.x[i], ax)));
-    ax = hn::IfThenElse(above, t.x[i], ax);
-    ay = hn::IfThenElse(above, t.y[i], ay);
-    az = hn::IfThenElse(above, t.z[i], az);
-  }
+  const AnchorLanes anchor(t.x, t.y, t.z);
   const auto cell_sample = [&](V px) { return sample(hn::And(px, hn::Set(d, -kDepthCell))); };
   const std::uint32_t covering = mask_bits(covers);
   const Selection select(covers);
@@ -195,8 +188,9 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   keep(dx1, out.dx1), keep(dx2, out.dx2), keep(dy1, out.dy1), keep(dy2, out.dy2);
   keep(minus(t.z[1], t.z[0]), out.dz1), keep(minus(t.z[2], t.z[0]), out.dz2);
   keep(area, out.area);
-  keep(minus(cell_sample(box.x0), ax), out.from_x), keep(minus(cell_sample(box.y0), ay), out.from_y);
-  keep(az, out.anchor_z);
+  keep(minus(cell_sample(box.x0), anchor.x), out.from_x),
+      keep(minus(cell_sample(box.y0), anchor.y), out.from_y);
+  keep(anchor.z, out.anchor_z);
   out.count += std::popcount(covering);
   return covering;
 }

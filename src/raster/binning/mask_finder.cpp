@@ -36,7 +36,7 @@ void find_masks(const ScreenTriangle* triangles, const CellGrid& grid, bool pref
   out.boxed = out.masked = 0;
   for (int i = 0; i < kPacket; i += kLanes) {
     const RecordLanes t(triangles + i, prefetch);
-    const BoxLanes box(t, grid.drawn());
+    const BoxLanes box(t.x, t.y, grid.drawn());
     const auto small = is_small(t, box);
     const std::uint32_t small_bits = mask_bits(small), boxed_bits = mask_bits(box.filled) & ~small_bits;
     if (boxed_bits != 0) store_cell_boxes(t, box, grid, i, out.boxes);

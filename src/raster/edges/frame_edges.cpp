@@ -117,38 +117,28 @@ HWY_INLINE V64 clamped_shift(V64 value) {
 // Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
 HWY_INLINE BatchBits set_up_vector(const FrameTask& task, const std::uint32_t* indices, NarrowBatch& out,
                                    int k) {
-  const D64 d;
-  const D32 d32;
-  const V32 zero = hn::Zero(d32);
   const TriangleLanes t = load(task.bins.triangles(), indices + k);
-  const BoxLanes box = box_lanes(task, t);
-  const auto [x0, x1, y0, y1] = box;
+  const BoxLanes box(t.x, t.y, task.area);
   const Area area = area_of(t);
-  const V32 flip = lower(area.flip);
-  const V32 sample_x = hn::Add(hn::ShiftLeft<kSubBits>(x0), set32(kHalf)),
-            sample_y = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(kHalf));
+  const auto sample = [](V32 px) { return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(kHalf)); };
   for (int i = 0; i < 3; ++i) {
-    const int j = i == 2 ? 0 : i + 1;
-    const V32 a = flipped(hn::Sub(t.y[i], t.y[j]), flip), b = flipped(hn::Sub(t.x[j], t.x[i]), flip);
-    const auto top_left = hn::Or(hn::Gt(a, zero), hn::And(hn::Eq(a, zero), hn::Gt(b, zero)));
-    const V64 bias = hn::AndNot(as64(hn::VecFromMask(d32, top_left)), hn::Set(d, 1));
-    const V64 value = hn::Add(product(a, hn::Sub(sample_x, t.x[i])), product(b, hn::Sub(sample_y, t.y[i])));
-    store(clamped_shift(hn::Sub(value, bias)), out.edge[i].first + k);
-    store(a, out.edge[i].x + k), store(b, out.edge[i].y + k);
+    const EdgeLanes edge(t, area, i, sample(box.x0), sample(box.y0));
+    store(clamped_shift(edge.value), out.edge[i].first + k);
+    store(edge.a, out.edge[i].x + k), store(edge.b, out.edge[i].y + k);
   }
   const DepthLanes depth = depth_lanes(t, area, 0, task.area.y0 & -kDepthCell);
-  const V32 rows_down = hn::Mul(depth.y, hn::And(y0, set32(kDepthCell - 1)));
+  const V32 rows_down = hn::Mul(depth.y, hn::And(box.y0, set32(kDepthCell - 1)));
   const auto in_cell = [&](V32 x) {
     const V32 cell_sub = hn::ShiftLeft<kSubBits>(hn::And(x, set32(-kDepthCell)));
     const V64 base = shift_right<24>(hn::Add(depth.start, product(depth.gx, cell_sub)));
     return hn::Add(lower(base), rows_down);
   };
-  store(in_cell(x0), out.depth.left + k), store(in_cell(hn::Sub(x1, set32(1))), out.depth.right + k);
+  store(in_cell(box.x0), out.depth.left + k), store(in_cell(hn::Sub(box.x1, set32(1))), out.depth.right + k);
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
   store(t.payload, out.payload + k);
   const std::uint32_t drawn = store_box(box, area, out, k);
   const std::uint32_t narrow =
-      mask_bits(depth.exact) & lower_bits(hn::Lt(hn::Sub(x1, x0), set32(kNarrow + 1)));
+      mask_bits(depth.exact) & lower_bits(hn::Lt(hn::Sub(box.x1, box.x0), set32(kNarrow + 1)));
   return {drawn, drawn & ~narrow};
 }
 

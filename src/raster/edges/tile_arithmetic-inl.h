@@ -55,18 +55,12 @@ struct EdgeInBoxLanes {
 
   HWY_INLINE EdgeInBoxLanes(const TileTask& task, const TriangleLanes& t, const Area& area,
                             const BlockBoxLanes& box, int i) {
-    const auto& [x, y, z, payload] = t;
-    const int j = i == 2 ? 0 : i + 1;
     const auto sample = [](V32 px, int origin) {
       return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(sample_sub(origin)));
     };
-    const V32 zero = hn::Zero(D32{}), flip = lower(area.flip);
-    a = flipped(hn::Sub(y[i], y[j]), flip), b = flipped(hn::Sub(x[j], x[i]), flip);
-    const auto top_left = hn::Or(hn::Gt(a, zero), hn::And(hn::Eq(a, zero), hn::Gt(b, zero)));
-    const V64 bias = hn::AndNot(as64(hn::VecFromMask(D32{}, top_left)), hn::Set(D64{}, 1));
-    first = hn::Sub(hn::Add(product(a, hn::Sub(sample(box.left, task.x0), x[i])),
-                            product(b, hn::Sub(sample(box.top, task.y0), y[i]))),
-                    bias);
+    const EdgeLanes edge(t, area, i, sample(box.left, task.x0), sample(box.top, task.y0));
+    a = edge.a, b = edge.b, first = edge.value;
+    const V32 zero = hn::Zero(D32{});
     // rise: the largest edge value less that at the first sample, over 256. across - rise: the same for the
     // least.
     const V64 rise = hn::Add(product(hn::Max(a, zero), box.last_x), product(hn::Max(b, zero), box.last_y));

@@ -80,11 +80,9 @@ template <class Arithmetic>
 HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, HalfBatch<Arithmetic>& out) {
   const D64 d;
   const TriangleLanes t = load(task.triangles, indices);
-  const auto& [x, y, z, payload] = t;
-
-  const auto [x0, x1] = sample_range(x, task.x0, task.width());
-  const auto [y0, y1] = sample_range(y, task.y0, task.height());
-  const auto filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
+  const BoxLanes box(t.x, t.y, {task.x0, task.y0, task.x0 + task.width(), task.y0 + task.height()});
+  const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
+  const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));
   static_assert(kBlockSide == 1 << 2);
   const V32 one = set32(1);
   const V32 bx0 = hn::ShiftRight<2>(x0), bx1 = hn::ShiftRight<2>(hn::Sub(x1, one));
@@ -97,13 +95,13 @@ HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, 
   const V64 zero = hn::Zero(d);
   const Area area = area_of(t);
   // A lane whose sign bit is set is rejected.
-  V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(filled)))),
+  V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(box.filled)))),
                     hn::VecFromMask(d, hn::Eq(area.value, zero)));
   const BlockBoxLanes blocks{left, top, last(bx0, bx1), last(by0, by1)};
   dead = hn::Or(dead, Arithmetic::set_up_half(task, t, area, blocks, out.edges));
 
   out.has_depth = set_up_half_depth(task, t, area, left, top, out.depth);
-  out.payload = payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
+  out.payload = t.payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
   out.bx0 = bx0, out.by0 = by0, out.bx1 = bx1, out.by1 = by1;
   out.alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
 }

@@ -55,18 +55,6 @@ HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
   return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
 }
 
-// Twice the signed area, made positive.
-struct Area {
-  V64 value;
-  V64 flip;  // -1 where the sign was changed, that is, for the other winding
-};
-HWY_INLINE Area area_of(const TriangleLanes& t) {
-  const V64 area = hn::Sub(product(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[2], t.y[0])),
-                           product(hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0])));
-  const V64 flip = hn::VecFromMask(D64{}, hn::Lt(area, hn::Zero(D64{})));
-  return {flipped(area, flip), flip};
-}
-
 struct DepthLanes {
   V32 x, y;             // steps per pixel
   V64 gx, gy;           // rule 6
@@ -113,19 +101,13 @@ HWY_INLINE DepthLanes depth_lanes(const PlaneLanes& p) {
 
 // The planes over the depth cell whose first pixel is (cell_px, cell_py).
 HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int cell_px, int cell_py) {
-  V32 x = t.x[0], y = t.y[0], z = t.z[0];
-  for (int i = 1; i < 3; ++i) {
-    const auto above = hn::Or(hn::Lt(t.y[i], y), hn::And(hn::Eq(t.y[i], y), hn::Lt(t.x[i], x)));
-    x = hn::IfThenElse(above, t.x[i], x);
-    y = hn::IfThenElse(above, t.y[i], y);
-    z = hn::IfThenElse(above, t.z[i], z);
-  }
+  const AnchorLanes anchor(t.x, t.y, t.z);
   const V32 flip = lower(area.flip);
   const auto turned = [&](V32 to, V32 from) { return flipped(hn::Sub(to, from), flip); };
   return depth_lanes({turned(t.x[1], t.x[0]), turned(t.x[2], t.x[0]), turned(t.y[1], t.y[0]),
                       turned(t.y[2], t.y[0]), hn::Sub(t.z[1], t.z[0]), hn::Sub(t.z[2], t.z[0]), area.value,
-                      hn::Sub(set32(contract::sample_sub(cell_px)), x),
-                      hn::Sub(set32(contract::sample_sub(cell_py)), y), z});
+                      hn::Sub(set32(contract::sample_sub(cell_px)), anchor.x),
+                      hn::Sub(set32(contract::sample_sub(cell_py)), anchor.y), anchor.z});
 }
 
 #endif

@@ -1,4 +1,4 @@
-// Loads triangles that are consecutive in memory into vectors of 32-bit lanes, and finds their pixel boxes.
+// Loads triangles that are consecutive in memory into vectors of 32-bit lanes.
 //
 // A triangle record is five pairs of 32-bit fields. kPairs records fill five vectors of kPairs pairs. kPairs
 // is a power of two and five is odd, so in these vectors the kPairs pairs of one field all lie in different
@@ -8,7 +8,6 @@
 
 #include <cstdint>
 
-#include "edgewise/contract.h"
 #include "edgewise/screen_triangle.h"
 #include "raster/simd/lanes-inl.h"
 
@@ -26,7 +25,6 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using namespace contract;
 
 using Pairs = hn::Repartition<std::int64_t, D>;
 constexpr int kPairs = static_cast<int>(hn::MaxLanes(Pairs{}));
@@ -87,32 +85,6 @@ struct RecordLanes {
     y[0] = odd(1), y[1] = even(2), y[2] = odd(2);
     z[0] = even(3), z[1] = odd(3), z[2] = even(4);
     payload = odd(4);
-  }
-};
-
-HWY_INLINE V least(const V (&v)[3]) {
-  return hn::Min(hn::Min(v[0], v[1]), v[2]);
-}
-HWY_INLINE V most(const V (&v)[3]) {
-  return hn::Max(hn::Max(v[0], v[1]), v[2]);
-}
-// The first sample at or after a coordinate.
-HWY_INLINE V first_sample(V c) {
-  return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(D{}, kHalf - 1)));
-}
-
-// The part of contract::pixel_box() that lies in another box, for a vector of triangles.
-struct BoxLanes {
-  V x0, y0, x1, y1;
-  hn::Mask<D> filled;
-
-  HWY_INLINE BoxLanes(const RecordLanes& t, const PixelBox& in) {
-    const D d;
-    x0 = hn::Max(first_sample(least(t.x)), hn::Set(d, in.x0));
-    x1 = hn::Min(first_sample(most(t.x)), hn::Set(d, in.x1));
-    y0 = hn::Max(first_sample(least(t.y)), hn::Set(d, in.y0));
-    y1 = hn::Min(first_sample(most(t.y)), hn::Set(d, in.y1));
-    filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   }
 };
 

@@ -9,6 +9,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/screen_triangle.h"
 #include "raster/simd/lanes-inl.h"
+#include "raster/simd/rule_lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TRIANGLE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -25,7 +26,7 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// D32 has two lanes per triangle, of which only the lower one is used.
+// D32 is D. It has two lanes per triangle, of which only the lower one is used.
 using D64 = hn::CappedTag<std::int64_t, 8>;
 using U64 = hn::RebindToUnsigned<D64>;
 using F64 = hn::RebindToFloat<D64>;
@@ -131,16 +132,35 @@ HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32
           upper(pair[4])};
 }
 
-// contract::pixel_box() along one axis, relative to `origin` and clipped to [0, end).
-struct Range {
-  V32 begin, end;
+// Twice the signed area, made positive.
+struct Area {
+  V64 value;
+  V64 flip;  // -1 where the sign was changed, that is, for the other winding
 };
-HWY_INLINE Range sample_range(const V32 (&c)[3], std::int32_t origin, std::int32_t end) {
-  const auto first_sample = [&](V32 v) {
-    return hn::Sub(hn::ShiftRight<contract::kSubBits>(hn::Add(v, set32(contract::kHalf - 1))), set32(origin));
-  };
-  return {hn::Max(first_sample(hn::Min(hn::Min(c[0], c[1]), c[2])), set32(0)),
-          hn::Min(first_sample(hn::Max(hn::Max(c[0], c[1]), c[2])), set32(end))};
+HWY_INLINE Area area_of(const TriangleLanes& t) {
+  const V64 area = hn::Sub(product(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[2], t.y[0])),
+                           product(hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0])));
+  const V64 flip = hn::VecFromMask(D64{}, hn::Lt(area, hn::Zero(D64{})));
+  return {flipped(area, flip), flip};
+}
+
+// Edge i of triangles (rule 4), with its biased value at a sample of each.
+struct EdgeLanes {
+  V32 a, b;
+  V64 value;
+  HWY_INLINE EdgeLanes(const TriangleLanes& t, const Area& area, int i, V32 sample_x, V32 sample_y) {
+    const int j = i == 2 ? 0 : i + 1;
+    const V32 flip = lower(area.flip);
+    a = flipped(hn::Sub(t.y[i], t.y[j]), flip), b = flipped(hn::Sub(t.x[j], t.x[i]), flip);
+    const V64 bias = hn::AndNot(as64(hn::VecFromMask(D32{}, is_top_left(a, b))), hn::Set(D64{}, 1));
+    value =
+        hn::Sub(hn::Add(product(a, hn::Sub(sample_x, t.x[i])), product(b, hn::Sub(sample_y, t.y[i]))), bias);
+  }
+};
+
+// Bit i belongs to the lower half of lane i.
+HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
+  return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(D64{})));
 }
 
 // One bit per triangle of a batch.

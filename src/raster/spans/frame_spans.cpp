@@ -90,7 +90,7 @@ HWY_INLINE BatchBits set_up_vector(const FrameTask& task, const std::uint32_t* i
                                    int k) {
   const D64 d;
   const TriangleLanes t = load(task.bins.triangles(), indices + k);
-  const BoxLanes box = box_lanes(task, t);
+  const BoxLanes box(t.x, t.y, task.area);
   const Area area = area_of(t);
   const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(box.y0), set32(kHalf));
   const auto flat = store_lines(t, area, task.area.x0, first_sample, out.line, k);

@@ -44,13 +44,12 @@ struct alignas(64) SpanBatch {
 HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
                                    int k) {
   const D64 d;
-  const V64 zero = hn::Zero(d);
   const TriangleLanes t = load(task.triangles, indices + k);
-  const auto [x0, x1] = sample_range(t.x, task.x0, task.width());
-  const auto [y0, y1] = sample_range(t.y, task.y0, task.height());
+  const BoxLanes box(t.x, t.y, {task.x0, task.y0, task.x0 + task.width(), task.y0 + task.height()});
+  const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
+  const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));
   const Area area = area_of(t);
-  const V32 filled = hn::VecFromMask(D32{}, hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1)));
-  const auto accepted = hn::And(hn::Gt(area.value, zero), hn::Lt(hn::ShiftLeft<32>(as64(filled)), zero));
+  const std::uint32_t drawn = lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(d)));
 
   const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(task.y0)));
   const auto flat = store_lines(t, area, task.x0, first_sample, out.line, k);
@@ -69,8 +68,7 @@ HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* in
   store(t.payload, out.payload + k);
   store(x0, out.x0 + k), store(x1, out.x1 + k);
   store(y0, out.y0 + k), store(y1, out.y1 + k);
-  const auto integer_walk = hn::Or(flat, hn::Not(depth.exact));
-  return {mask_bits(accepted), mask_bits(hn::And(integer_walk, accepted))};
+  return {drawn, drawn & mask_bits(hn::Or(flat, hn::Not(depth.exact)))};
 }
 
 // Sets up triangles[indices[i]] for all i. Triangles with a scalar set-up are walked by integers.
