@@ -21,9 +21,9 @@ class TriangleSource {
   // Returns the screen triangles of inputs begin … end - 1, in order. They are valid until the next call with
   // the same `worker`. Calls with different workers may run at once. Does not throw.
   virtual std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) = 0;
-  // Returns the screen triangles of one input, for an estimate of its work. They are valid until the next
-  // call of this or of make(). The front end does not count them. Does not throw.
-  virtual std::span<const ScreenTriangle> probe(std::size_t input) = 0;
+  // Called when all inputs are made, before anything is drawn. Throws std::invalid_argument if one was
+  // invalid.
+  virtual void finish() {}
   // The screen triangles if they lie in memory, one per input. Else null.
   virtual const ScreenTriangle* stored() const { return nullptr; }
 };
@@ -35,7 +35,6 @@ class StoredTriangles final : public TriangleSource {
   std::span<const ScreenTriangle> make(int, std::size_t begin, std::size_t end) override {
     return triangles_.subspan(begin, end - begin);
   }
-  std::span<const ScreenTriangle> probe(std::size_t input) override { return triangles_.subspan(input, 1); }
   const ScreenTriangle* stored() const override { return triangles_.data(); }
 
  private:

@@ -7,15 +7,16 @@
 #include "edgewise/frontend.h"
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "core/float_state.h"
 #include "edgewise/contract.h"
 #include "frontend/in_order.h"
 #include "frontend/scene_maker.h"
-#include "frontend/stream_source.h"
+#include "frontend/sources.h"
 #include "frontend/submission.h"
 #include "frontend/tasks.h"
 
@@ -72,7 +73,7 @@ struct Frontend::State {
   std::size_t state_count = 0;  // valid ones
   FrontendStats stats;
   FrontendOptions options;
-  std::optional<StreamSource> source;
+  std::variant<std::monostate, StreamSource, SceneSource> source;
 
   // Throws std::invalid_argument.
   void set(const FrontendOptions& o) {
@@ -184,16 +185,20 @@ TriangleSource* Frontend::start_source(const Drawable& drawable, const FrontendO
                                        int workers) {
   State& s = *state_;
   s.set(options);
-  const auto* stream = std::get_if<TriangleStream>(&drawable);
-  if (stream == nullptr || options.keep_unsnapped || options.keep_states) return nullptr;
+  if (options.keep_unsnapped || options.keep_states) return nullptr;
   s.stats = {};
-  s.stats.triangles = checked_count(stream->triangles.size(), s.first_id());
+  const std::size_t count = checked_count(submitted(drawable), s.first_id());
   s.order.start_frame(workers, kChunkTriangles, false);
-  return &s.source.emplace(s.options, *stream, s.order);
+  if (const auto* stream = std::get_if<TriangleStream>(&drawable)) {
+    s.stats.triangles = count;
+    return &s.source.emplace<StreamSource>(s.options, *stream, s.order);
+  }
+  s.maker.start_frame(std::get<Scene>(drawable), s.options, nullptr, workers);
+  return &s.source.emplace<SceneSource>(s.maker, s.stats, count, s.order);
 }
 
 void Frontend::end_source() {
-  state_->source.reset();
+  state_->source.emplace<std::monostate>();
   state_->stats += state_->order.stats();
 }
 

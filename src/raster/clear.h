@@ -16,7 +16,7 @@ struct Interval {
 // one tile after the other.
 struct ClearTask {
   std::span<const Interval> columns;  // those that lie in the part are cleared
-  int y0, y1;                            // px, the rows y0 … y1 - 1
+  int y0, y1;                         // px, the rows y0 … y1 - 1
   FramePart part;
   bool streaming = false;  // requested
 };

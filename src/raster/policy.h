@@ -18,15 +18,15 @@ enum class TileContent { nothing, few, many };
 // TileStore::automatic:
 // - A frame larger than half the LLC is streamed: it cannot stay there beside its reader's data.
 // - Empty tiles of other frames get cached stores, since no work overlaps with filling them.
-// - If the triangles exceed an L2 cache, they need the LLC, and a tile with triangles is streamed.
+// - If triangles and masks exceed an L2 cache, they need the LLC, and a tile with triangles is streamed.
 // - On one thread, a tile with many triangles is streamed while the next one is drawn. Several threads that
 //   stream would wait for the memory's bandwidth.
 // - Other tiles get cached stores, and so do all tiles that are drawn over what the frame holds: they have
 //   just been loaded.
-// `triangles`: the inputs of the source, which for Backend::draw() are screen triangles.
-constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, int threads,
+// `read_bytes`: of all triangles and masks.
+constexpr TileStore tile_store_for(TileContent content, std::size_t read_bytes, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {
-  const bool fits_llc = frame_bytes <= llc / 2, fits_l2 = triangles * sizeof(ScreenTriangle) <= kL2Bytes;
+  const bool fits_llc = frame_bytes <= llc / 2, fits_l2 = read_bytes <= kL2Bytes;
   const bool cached =
       content == TileContent::nothing || (fits_l2 && (content == TileContent::few || threads > 1));
   return fits_llc && cached ? TileStore::cached : TileStore::streaming;

@@ -18,14 +18,14 @@ namespace {
 struct Streaming {
   bool nothing, few, many;  // by the tile's content
 
-  Streaming(const FramePart& part, const TileOptions& options, std::size_t triangles, int threads) {
+  Streaming(const FramePart& part, const TileOptions& options, std::size_t read_bytes, int threads) {
     const FrameView& frame = part.frame;
     const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
     const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
     const auto streamed = [&](TileContent content) {
       TileStore store = options.tile_store;
       if (store == TileStore::automatic)
-        store = part.clear ? tile_store_for(content, triangles, threads, frame_bytes, llc_bytes())
+        store = part.clear ? tile_store_for(content, read_bytes, threads, frame_bytes, llc_bytes())
                            : TileStore::cached;
       return store == TileStore::streaming;
     };
@@ -46,7 +46,7 @@ bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execu
   TileList& list = scratch.list;
   const Bins::Small small = options.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices;
   if (!bins.build(triangles, grid, execution.threads, execution.target, small)) return false;
-  const Streaming stream(part, options, triangles.size(), execution.threads);
+  const Streaming stream(part, options, bins.read_bytes(), execution.threads);
   const int columns = grid.columns();
   const bool any_light = draw_light != nullptr && !stream.few && frame.payload != nullptr;
   // A tile that the frame's right side cuts may be narrower than a vector.

@@ -122,7 +122,7 @@ TEST_P(EveryBackend, TiesKeepTheEarlierOfASmallAndALargeTriangle) {
   }
 }
 
-// Enough triangles for a work partition into parts of different lengths.
+// Enough triangles for threads to split slices of them.
 TEST_P(EveryBackend, DrawsManyTrianglesTheSameOnEveryThreadCount) {
   const int side = 64;
   std::vector<ScreenTriangle> triangles(1'000'000);

@@ -14,6 +14,7 @@
 #include "core/llc.h"
 #include "lab/measure.h"
 #include "raster/kernels.h"
+#include "raster/policy.h"
 #include "raster/tiles.h"
 #include "support.h"
 
@@ -25,15 +26,15 @@ TEST(TileStore, IsCachedOnlyInFramesThatFitHalfTheCache) {
   using enum TileContent;
   for (const TileContent content : {nothing, few, many})
     for (const int threads : {1, 2})
-      EXPECT_EQ(tile_store_for(content, 10, threads, kLlc / 2 + 1, kLlc), TileStore::streaming);
-  for (const std::size_t triangles : {std::size_t{10}, std::size_t{1} << 20})
+      EXPECT_EQ(tile_store_for(content, 400, threads, kLlc / 2 + 1, kLlc), TileStore::streaming);
+  for (const std::size_t bytes : {kL2Bytes, kL2Bytes + 1})
     for (const int threads : {1, 2}) {
       const auto is_cached = [&](TileContent content) {
-        return tile_store_for(content, triangles, threads, kLlc / 2, kLlc) == TileStore::cached;
+        return tile_store_for(content, bytes, threads, kLlc / 2, kLlc) == TileStore::cached;
       };
       EXPECT_TRUE(is_cached(nothing));
-      EXPECT_EQ(is_cached(few), triangles == 10);
-      EXPECT_EQ(is_cached(many), triangles == 10 && threads == 2);
+      EXPECT_EQ(is_cached(few), bytes == kL2Bytes);
+      EXPECT_EQ(is_cached(many), bytes == kL2Bytes && threads == 2);
     }
 }
 

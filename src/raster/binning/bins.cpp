@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <optional>
 #include <stdexcept>
 
 #include "core/parallel.h"
@@ -124,7 +125,7 @@ void Bins::Slice::bin_boxed(const ScreenTriangle* packet, std::uint64_t boxed, c
     std::size_t index = begin + k;
     if (kept != nullptr) {
       kept[next_kept] = packet[k];
-      index = next_kept++;
+      index = next_kept++, ++kept_count;
     }
     bin(packet[k], static_cast<std::uint32_t>(index), boxes.box[k], boxes.candidate_cells[k], grid);
   }
@@ -180,64 +181,94 @@ void Bins::Slice::bin_with_masks(std::span<const ScreenTriangle> triangles, std:
   });
 }
 
+struct Bins::Work {
+  TriangleSource& source;
+  const CellGrid& grid;
+  const CellBoxKernel find_boxes;
+  const MaskFinder find_masks;            // null: no masks
+  const std::size_t cells, slices;        // of the grid; at first
+  std::atomic<std::size_t> next_kept{0};  // the first free place in kept_
+  std::atomic<bool> all_fit{true};
+};
+
+bool Bins::bin_slice(Work& work, int worker, std::size_t index) {
+  // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
+  constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
+  constexpr std::size_t kKeptAtOnce = 4 * TriangleSource::kInputsAtOnce;
+  const CellGrid& grid = work.grid;
+  const bool stored = work.source.stored() != nullptr;
+  Slice& slice = slices_[index];
+  slice.reset(work.cells);
+  slice.kept = stored ? nullptr : kept_.data();
+  slice.next_kept = slice.end_kept = slice.kept_count = 0;
+  if (work.find_masks != nullptr) slice.masks.reset(work.cells, work.source.size() / work.slices);
+  const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
+  std::size_t max_mask_bytes = pixels * kMaskBytesPerPixel / slices_.size();
+  while (const auto inputs = ranges_.next(index)) {
+    const auto triangles = work.source.make(worker, inputs->begin, inputs->end);
+    if (!stored && triangles.size() > slice.end_kept - slice.next_kept) {
+      const std::size_t room = std::max(kKeptAtOnce, triangles.size());
+      slice.next_kept = work.next_kept.fetch_add(room, std::memory_order_relaxed);
+      slice.end_kept = slice.next_kept + room;
+      if (slice.end_kept > kept_.capacity()) return false;
+    }
+    max_mask_bytes += (inputs->end - inputs->begin) * kMaskBytesPerTriangle;
+    // Made triangles are still cached, so they are not prefetched.
+    if (work.find_masks != nullptr)
+      slice.bin_with_masks(triangles, inputs->begin, grid, stored, work.find_masks, max_mask_bytes);
+    else
+      slice.bin_as_indices(triangles, inputs->begin, grid, stored, work.find_boxes);
+  }
+  return true;
+}
+
 bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target, Small small) {
   // Triangles per slice: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
   // tile kernel empty.
   constexpr std::size_t kMinSlice = 500;
   // List heads of all slices: 128 MB, or 384 MB with masks.
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;
-  // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
-  constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
+  // Each further list of a cell costs a lookup and a partly filled segment.
+  constexpr std::size_t kSlicesPerThread = 4;
+  const std::size_t count = source.size(), workers = static_cast<std::size_t>(threads);
   const auto cells = static_cast<std::size_t>(grid.cells());
-  // At most one slice per thread: each further list of a cell costs a lookup and a partly filled segment.
-  const auto most = static_cast<std::size_t>(threads);
-  const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
   const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
-  used_slices_ = std::clamp<std::size_t>(source.size() / kMinSlice, 1, std::min(most, affordable));
-  if (slices_.size() < used_slices_) slices_.resize(used_slices_);
-
-  const CellBoxKernel find_boxes = cell_box_kernel(target);
-  const MaskFinder find_masks = small == Small::as_masks ? mask_finder(target) : nullptr;
-  const ScreenTriangle* const stored = source.stored();
-  if (find_masks != nullptr || stored == nullptr)
-    partition_.cut_by_work(source, grid, find_masks != nullptr, used_slices_);
-  else
-    partition_.cut_equally(source.size(), used_slices_);
-  // Index in kept_ of the first triangle of a slice. Clipping may add an eighth to a slice's triangles, and
-  // 2048.
-  const auto kept_at = [](std::size_t slice, std::size_t input) {
-    return input + input / 8 + slice * TriangleSource::kInputsAtOnce;
-  };
-  if (stored == nullptr) kept_.reserve(kept_at(used_slices_, source.size()));
-  triangles_ = stored != nullptr ? stored : kept_.data();
-  const bool prefetch = stored != nullptr;  // made triangles are still cached
-  std::atomic<bool> all_fit{true};
-  parallel_for(threads, static_cast<int>(used_slices_), [&](int i) {
-    const auto c = static_cast<std::size_t>(i);
-    const std::size_t begin = partition_.bounds()[c], end = partition_.bounds()[c + 1];
-    Slice& slice = slices_[c];
-    slice.reset(cells);
-    slice.kept = stored != nullptr ? nullptr : kept_.data();
-    slice.next_kept = kept_at(c, begin);
-    if (find_masks != nullptr) slice.masks.reset(cells, end - begin);
-    const std::size_t max_mask_bytes =
-        (end - begin) * kMaskBytesPerTriangle + pixels * kMaskBytesPerPixel / used_slices_;
-    for (std::size_t at = begin; at < end; at += TriangleSource::kInputsAtOnce) {
-      const auto triangles = source.make(i, at, std::min(end, at + TriangleSource::kInputsAtOnce));
-      if (slice.kept != nullptr && slice.next_kept + triangles.size() > kept_at(c + 1, end)) {
-        all_fit = false;
+  const std::size_t first = std::clamp<std::size_t>(count / kMinSlice, 1, std::min(workers, affordable));
+  const std::size_t most = first == 1 ? 1 : std::min(first * kSlicesPerThread, affordable);
+  // Short enough to balance the slices.
+  constexpr std::size_t kLongest = TriangleSource::kInputsAtOnce, kShortest = 4 * kPacket;
+  const std::size_t share = count / (16 * first) / kPacket * kPacket,
+                    at_once = first == 1 ? kLongest : std::clamp(share, kShortest, kLongest);
+  if (slices_.size() < most) slices_.resize(most);
+  ranges_.start(count, at_once, first, most);
+  // Clipping may double the triangles. The memory is not touched before it is used.
+  if (source.stored() == nullptr) kept_.reserve(2 * count + most * 7 * TriangleSource::kInputsAtOnce);
+  triangles_ = source.stored() != nullptr ? source.stored() : kept_.data();
+  const bool masks = small == Small::as_masks;
+  Work work{source, grid, cell_box_kernel(target), masks ? mask_finder(target) : nullptr, cells, first};
+  parallel_for(threads, static_cast<int>(first), [&](int worker) {
+    for (std::optional slice{static_cast<std::size_t>(worker)}; slice; slice = ranges_.split())
+      if (!bin_slice(work, worker, *slice)) {
+        work.all_fit = false;
         return;
       }
-      if (find_masks != nullptr)
-        slice.bin_with_masks(triangles, at, grid, prefetch, find_masks, max_mask_bytes);
-      else
-        slice.bin_as_indices(triangles, at, grid, prefetch, find_boxes);
-    }
   });
-  has_masks_ = find_masks != nullptr &&
-               std::any_of(slices_.begin(), slices_.begin() + static_cast<std::ptrdiff_t>(used_slices_),
-                           [](const Slice& slice) { return slice.masks.any(); });
-  return all_fit;
+  if (!work.all_fit) return false;
+  source.finish();
+  in_order_.clear();
+  in_order_.reserve(slices_.size());
+  std::size_t records = source.stored() != nullptr ? count : 0;
+  read_bytes_ = 0, has_masks_ = false;
+  for (const std::size_t i : ranges_.in_order()) {
+    const Slice& slice = slices_[i];
+    in_order_.push_back(&slice);
+    records += slice.kept_count;
+    if (work.find_masks == nullptr) continue;
+    has_masks_ |= slice.masks.any();
+    read_bytes_ += slice.masks.used_bytes();
+  }
+  read_bytes_ += records * sizeof(ScreenTriangle);
+  return true;
 }
 
 void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,

@@ -1,17 +1,18 @@
 // Binning: lists for every cell of the image the triangles that may cover a pixel of it, in submission order.
 //
-// The triangles are cut into slices (work_partition.h). Slices are binned in parallel, each into its own
-// lists. A cell's triangles are its lists of slices 0, 1, 2 …, which is the order of submission (rule 7), no
-// matter which thread binned which slice.
+// The triangles are cut into consecutive slices (slice_ranges.h). Slices are binned in parallel, each into
+// its own lists. A cell's triangles are its lists of the first slice, the second …, which is the order of
+// submission (rule 7), no matter which thread binned which slice.
 //
-// If a source makes the triangles while they are binned (triangle_source.h), a slice keeps only those that it
-// lists as indices.
+// If a source makes the triangles while they are binned (triangle_source.h), only those that are listed as
+// indices are kept.
 //
 // A list holds indices of triangles, in chained segments of two cache lines that are reused from frame to
 // frame. Small triangles may become coverage masks instead (mask_finder.cpp), stored by value in lists of
 // their own (mask_lists.h). Each mask stores its rank among its cell's indices.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,7 +24,7 @@
 #include "raster/binning/cell_boxes.h"
 #include "raster/binning/mask_finder.h"
 #include "raster/binning/mask_lists.h"
-#include "raster/binning/work_partition.h"
+#include "raster/binning/slice_ranges.h"
 
 namespace edgewise {
 
@@ -34,8 +35,8 @@ class Bins {
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
   // scalar target.
-  // Throws std::length_error if a slice's lists exceed 2^32 entries. Returns false, with incomplete contents,
-  // if a slice's room for made triangles might not suffice.
+  // Throws std::length_error if a slice's lists exceed 2^32 entries, and what TriangleSource::finish()
+  // throws. Returns false, with incomplete contents, if the room for made triangles might not suffice.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            Small small);
   // The same for triangles that lie in memory, which need not be kept.
@@ -44,11 +45,13 @@ class Bins {
 
   // Indices refer to these triangles: the stored ones of the source, or those that were kept of it.
   const ScreenTriangle* triangles() const { return triangles_; }
+  // The bytes that drawing reads of triangles and masks.
+  std::size_t read_bytes() const { return read_bytes_; }
 
   bool empty(int cell) const {
     const auto c = static_cast<std::size_t>(cell);
-    for (std::size_t i = 0; i < used_slices_; ++i)
-      if (slices_[i].first[c] != kNone || (has_masks_ && !slices_[i].masks.empty(c))) return false;
+    for (const Slice* slice : in_order_)
+      if (slice->first[c] != kNone || (has_masks_ && !slice->masks.empty(c))) return false;
     return true;
   }
 
@@ -56,9 +59,9 @@ class Bins {
   bool few(int cell, std::uint32_t most = kIndicesPerSegment) const {
     const auto c = static_cast<std::size_t>(cell);
     std::uint64_t listed = 0;  // more than `most` where a slice has several segments
-    for (const Slice& slice : std::span(slices_).first(used_slices_)) {
-      if (slice.first[c] != kNone) listed += slice.cursor[c] - slice.first[c];
-      if (listed > most || (has_masks_ && !slice.masks.empty(c))) return false;
+    for (const Slice* slice : in_order_) {
+      if (slice->first[c] != kNone) listed += slice->cursor[c] - slice->first[c];
+      if (listed > most || (has_masks_ && !slice->masks.empty(c))) return false;
     }
     return true;
   }
@@ -74,8 +77,8 @@ class Bins {
   template <typename Visit>
   void for_each_segment(int cell, Visit&& visit) const {
     const auto c = static_cast<std::size_t>(cell);
-    for (std::size_t i = 0; i < used_slices_; ++i) {
-      const Slice& slice = slices_[i];
+    for (std::size_t i = 0; i < in_order_.size(); ++i) {
+      const Slice& slice = *in_order_[i];
       for (std::uint32_t slot = slice.first[c]; slot != kNone;) {
         const std::uint32_t segment_end = slot + kIndicesPerSegment;
         const bool last = slice.cursor[c] <= segment_end && slice.cursor[c] > slot;
@@ -109,8 +112,8 @@ class Bins {
    public:
     MaskReader(const Bins& bins, int cell) : bins_(bins), cell_(static_cast<std::size_t>(cell)) {
       if (!bins_.has_masks_) return;
-      for (std::size_t i = 0; i < bins_.used_slices_; ++i) bins_.slices_[i].masks.prefetch_first(cell_);
-      reader_ = {bins_.slices_[0].masks, cell_};
+      for (const Slice* slice : bins_.in_order_) slice->masks.prefetch_first(cell_);
+      reader_ = {bins_.in_order_[0]->masks, cell_};
     }
     // Draws the remaining masks that precede triangle `index` of a segment.
     template <typename Draw>
@@ -119,14 +122,15 @@ class Bins {
     }
     template <typename Draw>
     void draw_rest(Draw&& draw) {
-      advance_to(bins_.used_slices_ - 1, kNone, draw);
+      advance_to(bins_.in_order_.size() - 1, kNone, draw);
     }
 
    private:
     template <typename Draw>
     void advance_to(std::size_t slice, std::uint32_t rank, Draw&& draw) {
       if (!bins_.has_masks_) return;
-      for (; slice_ != slice; reader_ = {bins_.slices_[++slice_].masks, cell_}) draw_up_to_rank(kNone, draw);
+      for (; slice_ != slice; reader_ = {bins_.in_order_[++slice_]->masks, cell_})
+        draw_up_to_rank(kNone, draw);
       draw_up_to_rank(rank, draw);
     }
     template <typename Draw>
@@ -164,7 +168,8 @@ class Bins {
     std::uint32_t used = 0;                    // slots in use
     MaskLists masks;
     ScreenTriangle* kept = nullptr;  // where triangles that are binned as indices are kept; null: nowhere
-    std::size_t next_kept = 0;       // index there
+    std::size_t next_kept = 0, end_kept = 0;  // the slice's room there
+    std::size_t kept_count = 0;
 
     void reset(std::size_t cells);
     // Appends a segment to a cell's list. `end_of_last`: the link slot of its last segment, or kNone.
@@ -184,11 +189,17 @@ class Bins {
                         bool prefetch, MaskFinder find_masks, std::size_t max_mask_bytes);
   };
 
+  // What all workers need to bin slices.
+  struct Work;
+  // Bins all inputs of a slice. Returns false if there is no room for kept triangles.
+  bool bin_slice(Work& work, int worker, std::size_t slice);
+
   std::vector<Slice> slices_;
+  SliceRanges ranges_;
+  std::vector<const Slice*> in_order_;
   Buffer<ScreenTriangle> kept_;
   const ScreenTriangle* triangles_ = nullptr;
-  WorkPartition partition_;
-  std::size_t used_slices_ = 0;
+  std::size_t read_bytes_ = 0;
   bool has_masks_ = false;
 };
 

@@ -1,0 +1,79 @@
+#include "raster/binning/slice_ranges.h"
+
+#include <algorithm>
+
+namespace edgewise {
+
+namespace {
+
+struct Pieces {
+  std::size_t begin, end;
+  explicit Pieces(std::uint64_t bits) : begin(bits & 0xFFFFFFFF), end(bits >> 32) {}
+  Pieces(std::size_t b, std::size_t e) : begin(b), end(e) {}
+  std::uint64_t bits() const { return std::uint64_t{begin} | std::uint64_t{end} << 32; }
+  std::size_t count() const { return end - begin; }
+};
+
+}  // namespace
+
+void SliceRanges::use(std::size_t slice, std::size_t begin, std::size_t end) {
+  slices_[slice].begin = begin, slices_[slice].used = true;
+  slices_[slice].left.store(Pieces(begin, end).bits(), std::memory_order_relaxed);
+}
+
+void SliceRanges::start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most) {
+  if (slices_.size() < most) slices_ = std::vector<Slice>(most);
+  count_ = count, at_once_ = at_once, most_ = most, next_ = first;
+  const std::size_t pieces = (count + at_once - 1) / at_once;
+  for (Slice& slice : slices_) slice.left = 0, slice.used = false;
+  for (std::size_t i = 0; i < first; ++i) use(i, pieces * i / first, pieces * (i + 1) / first);
+}
+
+std::optional<SliceRanges::Inputs> SliceRanges::next(std::size_t slice) {
+  std::atomic<std::uint64_t>& left = slices_[slice].left;
+  for (std::uint64_t bits = left.load(std::memory_order_relaxed);;) {
+    const Pieces pieces(bits);
+    if (pieces.count() == 0) return std::nullopt;
+    if (left.compare_exchange_weak(bits, Pieces(pieces.begin + 1, pieces.end).bits(),
+                                   std::memory_order_relaxed))
+      return Inputs{pieces.begin * at_once_, std::min(count_, (pieces.begin + 1) * at_once_)};
+  }
+}
+
+std::optional<std::size_t> SliceRanges::split() {
+  constexpr std::size_t kShort = 3;  // pieces
+  std::optional<std::size_t> slice;  // stays unused if there is nothing to take
+  const std::atomic_ref next(next_);
+  for (;;) {
+    std::size_t longest = 0, count = 0;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < std::min(next.load(std::memory_order_relaxed), most_); ++i) {
+      const std::uint64_t left = slices_[i].left.load(std::memory_order_relaxed);
+      if (const std::size_t n = Pieces(left).count(); n > count) longest = i, count = n, bits = left;
+    }
+    if (count < kShort) return std::nullopt;
+    if (!slice) {
+      if (next.load(std::memory_order_relaxed) >= most_) return std::nullopt;
+      slice = next.fetch_add(1, std::memory_order_relaxed);
+      if (*slice >= most_) return std::nullopt;
+    }
+    const Pieces rest(bits);
+    const std::size_t middle = rest.end - count / 2;
+    if (!slices_[longest].left.compare_exchange_strong(bits, Pieces(rest.begin, middle).bits(),
+                                                       std::memory_order_relaxed))
+      continue;
+    use(*slice, middle, rest.end);
+    return slice;
+  }
+}
+
+std::span<const std::size_t> SliceRanges::in_order() {
+  order_.clear();
+  order_.reserve(slices_.size());
+  for (std::size_t i = 0; i < slices_.size(); ++i)
+    if (slices_[i].used) order_.push_back(i);
+  std::ranges::sort(order_, {}, [&](std::size_t i) { return slices_[i].begin; });
+  return order_;
+}
+
+}  // namespace edgewise

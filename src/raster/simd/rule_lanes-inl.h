@@ -1,0 +1,74 @@
+// Rules of the contract in vectors, one triangle per lane of 32 bits.
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "edgewise/contract.h"
+#include "raster/simd/lanes-inl.h"
+
+// Included once per SIMD target.
+#if defined(EDGEWISE_RULE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_RULE_LANES_INL_H
+#undef EDGEWISE_RULE_LANES_INL_H
+#else
+#define EDGEWISE_RULE_LANES_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+HWY_INLINE V least(const V (&v)[3]) {
+  return hn::Min(hn::Min(v[0], v[1]), v[2]);
+}
+HWY_INLINE V most(const V (&v)[3]) {
+  return hn::Max(hn::Max(v[0], v[1]), v[2]);
+}
+
+// The part of pixel_box() that lies in another box.
+struct BoxLanes {
+  V x0, y0, x1, y1;
+  hn::Mask<D> filled;
+
+  HWY_INLINE BoxLanes(const V (&x)[3], const V (&y)[3], const PixelBox& in) {
+    const D d;
+    const auto first_sample = [&](V c) {
+      return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(d, kHalf - 1)));
+    };
+    x0 = hn::Max(first_sample(least(x)), hn::Set(d, in.x0));
+    x1 = hn::Min(first_sample(most(x)), hn::Set(d, in.x1));
+    y0 = hn::Max(first_sample(least(y)), hn::Set(d, in.y0));
+    y1 = hn::Min(first_sample(most(y)), hn::Set(d, in.y1));
+    filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
+  }
+};
+
+// Rule 4, for integers or floats.
+template <class Vector>
+HWY_INLINE auto is_top_left(Vector a, Vector b) {
+  const auto zero = hn::Zero(hn::DFromV<Vector>{});
+  return hn::Or(hn::Gt(a, zero), hn::And(hn::Eq(a, zero), hn::Gt(b, zero)));
+}
+
+// Rule 6: the topmost, then leftmost vertex.
+struct AnchorLanes {
+  V x, y, z;
+
+  HWY_INLINE AnchorLanes(const V (&vx)[3], const V (&vy)[3], const V (&vz)[3])
+      : x(vx[0]), y(vy[0]), z(vz[0]) {
+    for (int i = 1; i < 3; ++i) {
+      const auto above = hn::Or(hn::Lt(vy[i], y), hn::And(hn::Eq(vy[i], y), hn::Lt(vx[i], x)));
+      x = hn::IfThenElse(above, vx[i], x);
+      y = hn::IfThenElse(above, vy[i], y);
+      z = hn::IfThenElse(above, vz[i], z);
+    }
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
