@@ -1,12 +1,12 @@
 // Checks that every cell of the experiment draws the picture of `naive`.
 #include "lab/cells/cells.h"
+#include "edgewise/draw.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "edgewise/builtin.h"
-#include "edgewise/frontend.h"
 #include "lab/measure.h"
 #include "support.h"
 
@@ -35,12 +35,11 @@ TEST(Cells, DrawTheSamePicturesOfAllScenes) {
     for (const Cell& cell : cells()) {
       const auto backend = cell.backend.make();
       for (const Execution& execution : executions(cell)) {
-        const FrontendOptions options{
-            .width = kWidth, .height = kHeight, .threads = execution.threads, .target = execution.target};
+        const FrontendOptions options{.width = kWidth, .height = kHeight};
         Frontend frontend;
-        naive->draw(frontend.run(drawable, options), expected.view(), kBackground, {});
+        naive->draw(frontend.run(drawable, options, execution), expected.view(), {kBackground});
         poison(found);
-        draw(drawable, frontend, options, *backend, found.view(), kBackground, execution);
+        draw(drawable, frontend, options, *backend, found.view(), {kBackground}, execution);
         expect_same(expected, found,
                     std::string(scene.name) + ", " + factors(cell) + ", " + testing::describe(execution));
       }
@@ -54,12 +53,12 @@ TEST(Cells, DrawTheSamePicturesOfHardTriangles) {
     for (const auto family : testing::kFamilies) {
       const auto triangles = testing::adversarial(family, 300, width, height, 7);
       Framebuffer expected(width, height), found(width, height);
-      naive->draw(triangles, expected.view(), kBackground, {});
+      naive->draw(triangles, expected.view(), {kBackground});
       for (const Cell& cell : cells()) {
         const auto backend = cell.backend.make();
         for (const Execution& execution : executions(cell)) {
           poison(found);
-          backend->draw(triangles, found.view(), kBackground, execution);
+          backend->draw(triangles, found.view(), {kBackground}, execution);
           expect_same(expected, found,
                       std::string(family) + ", " + factors(cell) + ", " + testing::describe(execution));
         }
@@ -81,7 +80,7 @@ TEST(Cells, DrawTheSamePicturesInTheSameRenderPasses) {
           poison(frame);
           FrameView view = frame.view();
           if (depth_only) view.payload = nullptr;
-          backend.draw(first, view, kBackground, execution);
+          backend.draw(first, view, {kBackground}, execution);
           backend.draw(rest, view, {.clear = false, .scissor = scissor}, execution);
           backend.draw(first, view, {.background = 1, .scissor = {50, 9, scissor.width, 7}}, execution);
         };
