@@ -12,14 +12,12 @@
 #include <utility>
 
 #include "core/float_state.h"
-#include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
 #include "edgewise/camera.h"
 #include "edgewise/contract.h"
+#include "edgewise/draw.h"
 #include "edgewise/edgewise.h"
-#include "edgewise/frontend.h"
 #include "edgewise/hash.h"
-#include "edgewise/scene.h"
 #include "edgewise/visible.h"
 #include "frontend/scene_edits.h"
 #include "raster/checks.h"
@@ -123,7 +121,6 @@ FrontendOptions frontend_options(const edgewise_options& options, const edgewise
   o.shade = options.unlit == 0;
   o.payload = options.ids != 0 ? Payload::id : Payload::colour;
   o.first_id = options.first_id;
-  o.threads = options.threads;
   return o;
 }
 
@@ -374,9 +371,9 @@ edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewis
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride) {
   return status_of([&] {
-    barycentrics(view_of(ids), given(scene, "scene").drawable,
-                 frontend_options(given(options, "options"), ids),
-                 {uv, uv_stride, distance, distance_stride});
+    const edgewise_options& o = given(options, "options");
+    barycentrics(view_of(ids), given(scene, "scene").drawable, frontend_options(o, ids),
+                 {uv, uv_stride, distance, distance_stride}, {.threads = o.threads});
   });
 }
 
@@ -389,7 +386,7 @@ double edgewise_depth01(uint32_t depth) {
 
 edgewise_status edgewise_hash(edgewise_frame frame, uint64_t* hash) {
   return status_of([&] {
-    (void)checked(view_of(frame), Execution{});
+    check(view_of(frame));
     given(hash, "hash") = hash_of(view_of(frame));
   });
 }

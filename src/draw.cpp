@@ -1,33 +1,38 @@
-// A scene or stream drawn in one call: the only file that knows both front end and backends.
-#include <variant>
+// The only file that knows both front end and backends.
+#include "edgewise/draw.h"
 
+#include "core/execution.h"
 #include "core/float_state.h"
 #include "core/triangle_source.h"
-#include "edgewise/backend.h"
-#include "edgewise/frontend.h"
 #include "raster/checks.h"
 
 namespace edgewise {
 
-void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
-          FrameView frame, const RenderPass& pass, const Execution& execution) {
-  const DefaultFloatState state;
-  throw_if_of_another_size("a drawable with options", options.width, options.height, frame);
-  const Execution resolved = checked(frame, execution);
-  const FramePart part = checked(frame, pass);
-  TriangleSource* const source =
-      is_empty(part) ? nullptr : frontend.start_source(drawable, options, resolved.threads);
-  if (source != nullptr) {
+// Reaches what front end and backend do for draw() alone.
+struct DrawAccess {
+  // Draws triangles where they are made. Returns false, with the frame as it was, if that is not possible.
+  static bool draw_source(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
+                          Backend& backend, const FramePart& part, const Execution& execution) {
+    TriangleSource* const source = frontend.start_source(drawable, options, execution);
+    if (source == nullptr) return false;
     struct End {  // also if drawing throws
       Frontend& frontend;
       ~End() { frontend.end_source(); }
     };
     const End end{frontend};
-    if (backend.draw_source(*source, backend.with_payload(part), resolved)) return;
+    return backend.draw_source(*source, backend.with_payload(part), execution);
   }
-  FrontendOptions in_two_calls = options;
-  if (std::holds_alternative<TriangleStream>(drawable)) in_two_calls.threads = resolved.threads;
-  backend.draw(frontend.run(drawable, in_two_calls), frame, pass, resolved);
+};
+
+void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
+          FrameView frame, const RenderPass& pass, const Execution& execution) {
+  const DefaultFloatState state;
+  throw_if_of_another_size("a drawable with options", options.width, options.height, frame);
+  check(frame);
+  const Execution resolved = checked(execution);
+  const FramePart part = checked(frame, pass);
+  if (is_empty(part) || !DrawAccess::draw_source(drawable, frontend, options, backend, part, resolved))
+    backend.draw(frontend.run(drawable, options, resolved), frame, pass, resolved);
 }
 
 }  // namespace edgewise

@@ -33,7 +33,7 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
     for (const auto& how : executions()) {
       lab::poison(
           actual);  // otherwise pixels that a draw omits would still be correct from the previous draw
-      backends_.get(info_, how.tiles).draw(triangles, actual.view(), kBackground, how.execution);
+      backends_.get(info_, how.tiles).draw(triangles, actual.view(), {kBackground}, how.execution);
       expect_same(expected, actual, what + ", " + describe(how));
     }
   }

@@ -65,9 +65,10 @@ struct Emitted {
   std::vector<ScreenTriangle> triangles;
   FrontendStats stats;
 };
-inline Emitted run(const Drawable& drawable, const FrontendOptions& options) {
+inline Emitted run(const Drawable& drawable, const FrontendOptions& options,
+                   const Execution& execution = {}) {
   Frontend frontend;
-  const auto span = frontend.run(drawable, options);
+  const auto span = frontend.run(drawable, options, execution);
   return {{span.begin(), span.end()}, frontend.stats()};
 }
 

@@ -112,7 +112,7 @@ PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
   result.width = workload.width();
   result.height = workload.height();
   result.background = payload == PeerPayload::id ? kNoTriangle : kBackground;
-  result.cull_back = workload.frontend_options({}).cull == Cull::back;
+  result.cull_back = workload.frontend_options().cull == Cull::back;
   const auto payloads = payloads_of(workload, payload);
   if (const auto* scene = std::get_if<Scene>(&workload.drawable()))
     result.meshes = scene_meshes(*scene, workload, payloads);
@@ -122,7 +122,7 @@ PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
 }
 
 std::vector<ScreenTriangle> triangles_by_id(const Workload& workload) {
-  FrontendOptions options = workload.frontend_options({});
+  FrontendOptions options = workload.frontend_options();
   options.payload = Payload::id;
   Frontend frontend;
   const auto triangles = frontend.run(workload.drawable(), options);
@@ -216,7 +216,7 @@ std::uint64_t differing_colours(const Framebuffer& ids, std::span<const std::uin
 
 Framebuffer picture_of_ids(const Workload& workload, std::span<const ScreenTriangle> triangles) {
   Framebuffer frame(workload.width(), workload.height());
-  backends().front().make()->draw(triangles, frame.view(), kNoTriangle, {});
+  backends().front().make()->draw(triangles, frame.view(), {kNoTriangle});
   return frame;
 }
 
@@ -225,12 +225,11 @@ Framebuffer picture_of_ids(const Workload& workload, std::span<const ScreenTrian
 PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
                                  int subpixel_bits) {
   const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload));
-  const auto mask =
-      lab::portable_pixels(lab::portable_triangles(workload.drawable(), workload.frontend_options({})),
-                           ours.width(), ours.height(),
-                           {.subpixel_bits = std::min(subpixel_bits, contract::kSubBits),
-                            .depth = lab::find_depth_format("d32_sfloat")},
-                           2);
+  const auto mask = lab::portable_pixels(
+      lab::portable_triangles(workload.drawable(), workload.frontend_options()), ours.width(), ours.height(),
+      {.subpixel_bits = std::min(subpixel_bits, contract::kSubBits),
+       .depth = lab::find_depth_format("d32_sfloat")},
+      2);
   PortableJudgement result;
   std::size_t i = 0;
   for (int y = 0; y < ours.height(); ++y)

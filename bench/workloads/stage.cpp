@@ -44,7 +44,7 @@ void Stage::work(const Row& row) {
   if (row.arithmetic)
     lab::draw_engine(*row.arithmetic, triangles, frame(row).view(), kBackground, row.execution, scratch_);
   else if (row.timed != Timed::frontend)
-    backends_.get(*row.backend, row.tiles).draw(triangles, frame(row).view(), kBackground, row.execution);
+    backends_.get(*row.backend, row.tiles).draw(triangles, frame(row).view(), {kBackground}, row.execution);
 }
 
 double Stage::timed_work_s(const Row& row) {

@@ -1,5 +1,6 @@
 #include "bench/workloads/workload.h"
 
+#include "edgewise/draw.h"
 #include "lab/measure.h"
 
 namespace edgewise::bench {
@@ -8,30 +9,27 @@ Workload::Workload(int width, int height, Cull mesh_cull, std::function<tools::S
                    const lab::FacingMethod* facing)
     : width_(width), height_(height), mesh_cull_(mesh_cull), facing_(facing), load_(std::move(load)) {}
 
-FrontendOptions Workload::frontend_options(const Execution& execution) const {
+FrontendOptions Workload::frontend_options() const {
   FrontendOptions options;
   options.width = width_;
   options.height = height_;
   options.cull = stream_ ? Cull::none : mesh_cull_;
   options.shade = !stream_;
-  options.threads = execution.threads;
-  options.target = execution.target;
   return options;
 }
 
 std::span<const ScreenTriangle> Workload::run(Frontend& frontend, const Execution& execution) {
-  FrontendOptions options = frontend_options(execution);
-  if (!hidden_) return frontend.run(source_->drawable, options);
+  FrontendOptions options = frontend_options();
+  if (!hidden_) return frontend.run(source_->drawable, options, execution);
   options.cull = Cull::none;
-  return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options);
+  return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options, execution);
 }
 
 void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution) {
   if (hidden_)
-    backend.draw(run(frontend, execution), frame, kBackground, execution);
+    backend.draw(run(frontend, execution), frame, {kBackground}, execution);
   else
-    edgewise::draw(source_->drawable, frontend, frontend_options(execution), backend, frame, kBackground,
-                   execution);
+    edgewise::draw(source_->drawable, frontend, frontend_options(), backend, frame, {kBackground}, execution);
 }
 
 void Workload::drop_hidden(Frontend& frontend) {
@@ -47,7 +45,7 @@ void Workload::prepare(bool keep_scene) {
   source_ = load_();
   stream_ = source_->stream;
   Frontend frontend;
-  const auto emitted = frontend.run(source_->drawable, frontend_options({}));
+  const auto emitted = frontend.run(source_->drawable, frontend_options());
   triangles_.assign(emitted.begin(), emitted.end());
   submitted_ = frontend.stats().triangles;
   if (facing_ != nullptr) drop_hidden(frontend);
@@ -63,9 +61,8 @@ const BlockCounts& Workload::blocks() {
 
 Framebuffer Workload::drawn() const {
   Framebuffer frame(width_, height_);
-  Execution execution;
-  execution.target = supported_targets().front();
-  backends().front().make()->draw(triangles_, frame.view(), kBackground, execution);
+  backends().front().make()->draw(triangles_, frame.view(), {kBackground},
+                                  {.target = supported_targets().front()});
   return frame;
 }
 

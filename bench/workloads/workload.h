@@ -47,8 +47,7 @@ class Workload {
   // The timed work of a frame row. Requires prepare(true).
   void draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution);
 
-  // With the execution's threads and SIMD target.
-  FrontendOptions frontend_options(const Execution& execution) const;
+  FrontendOptions frontend_options() const;
   const Drawable& drawable() const { return source_->drawable; }
   std::span<const ScreenTriangle> triangles() const { return triangles_; }
   std::uint64_t submitted() const { return submitted_; }    // the scene's triangles

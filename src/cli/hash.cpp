@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "edgewise/draw.h"
 #include "edgewise/hash.h"
 #include "image/pictures.h"
 #include "support/console.h"
@@ -49,13 +50,10 @@ SceneHash hash_of_scene(const HashOptions& o, const std::string& scene, Backend&
   std::optional<Framebuffer> frame;
   o.motion.for_each_frame(scene, o.scene, [&](Shot& shot, double, int number) {
     progress.show(static_cast<double>(number - 1) / o.motion.frames, result.scene);
-    FrontendOptions& options = shot.frontend;
-    const Execution& execution = o.execution.execution;
-    options.threads = execution.threads;
-    options.target = execution.target;
+    const FrontendOptions& options = shot.frontend;
     if (!frame) frame.emplace(result.width = options.width, result.height = options.height);
-    draw(shot.source.drawable, frontend, options, backend, frame->view(), background_of(options.payload),
-         execution);
+    draw(shot.source.drawable, frontend, options, backend, frame->view(), {background_of(options.payload)},
+         o.execution.execution);
     result.frames.push_back(hash_of(*frame));
   });
   return result;

@@ -208,10 +208,7 @@ class NeedsCommand {
   }
 
   Shot load(const std::string& scene, int frame) const {
-    Shot shot =
-        load_shot(scene, options_.scene, options_.scene.time.value_or(0.0) + frame / kFramesPerSecond);
-    shot.frontend.threads = options_.threads;
-    return shot;
+    return load_shot(scene, options_.scene, options_.scene.time.value_or(0.0) + frame / kFramesPerSecond);
   }
 
   Shot load_first(const std::string& scene) const {

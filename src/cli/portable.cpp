@@ -12,6 +12,7 @@
 
 #include "cli/commands.h"
 #include "edgewise/contract.h"
+#include "edgewise/draw.h"
 #include "image/pictures.h"
 #include "lab/portable/portable.h"
 #include "support/console.h"
@@ -110,8 +111,8 @@ class PortableCommand {
     frontend.payload = options_.ids ? Payload::id : Payload::colour;
     Frontend run;
     Framebuffer frame(frontend.width, frontend.height);
-    find_backend("tiled").make()->draw(run.run(shot.source.drawable, frontend), frame.view(),
-                                       background_of(frontend.payload), options_.execution.execution);
+    draw(shot.source.drawable, run, frontend, *find_backend("tiled").make(), frame.view(),
+         {background_of(frontend.payload)}, options_.execution.execution);
     return picture_of(frame, frontend.payload);
   }
 

@@ -118,8 +118,6 @@ class Renderer {
     options_.motion.for_each_frame(scene, options_.scene, [&](Shot& shot, double time, int frame) {
       if (options_.motion.frames > 1) show_progress(source_name(scene), frame, 0.0);
       shot.frontend.payload = options_.pixel_kind == PixelKind::id ? Payload::id : Payload::colour;
-      shot.frontend.threads = options_.execution.execution.threads;
-      shot.frontend.target = options_.execution.execution.target;
       report(render(shot, time, frame));
     });
   }
@@ -134,12 +132,13 @@ class Renderer {
     Picture picture{shot.source.name, time, shot.frontend, {}, 0, 0, {}, {}};
 
     std::span<const ScreenTriangle> triangles;
-    picture.frontend_ms =
-        milliseconds([&] { triangles = frontend_.run(shot.source.drawable, shot.frontend); });
-    picture.stats = frontend_.stats();
     const Execution& execution = options_.execution.execution;
-    picture.draw_ms = milliseconds(
-        [&] { backend_->draw(triangles, frame_->view(), background_of(shot.frontend.payload), execution); });
+    picture.frontend_ms =
+        milliseconds([&] { triangles = frontend_.run(shot.source.drawable, shot.frontend, execution); });
+    picture.stats = frontend_.stats();
+    picture.draw_ms = milliseconds([&] {
+      backend_->draw(triangles, frame_->view(), {background_of(shot.frontend.payload)}, execution);
+    });
 
     if (depths_) {
       picture.files.push_back(depths_->file(shot.source.name, frame).path.string());

@@ -20,11 +20,9 @@
 #include <vector>
 
 #include "edgewise/contract.h"
+#include "edgewise/execution.h"
 #include "edgewise/framebuffer.h"
-#include "edgewise/limits.h"
-#include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
-#include "edgewise/simd_target.h"
 
 namespace edgewise {
 class TriangleSource;  // internal
@@ -32,16 +30,6 @@ class TriangleSource;  // internal
 
 #pragma GCC visibility push(default)
 namespace edgewise {
-
-class Frontend;
-struct FrontendOptions;
-
-// How to draw. No choice here changes a bit of the picture.
-struct Execution {
-  int threads = 1;     // at most; 1 … kMaxThreads. oneTBB's limit holds too: by default, as many as cores
-  int tile_size = 64;  // px; 16, 32 or 64; used by the tiled backend only
-  SimdTarget target = SimdTarget::best;
-};
 
 // Columns x … x + width - 1 and rows y … y + height - 1. It may lie partly or wholly outside of a frame. The
 // default covers any frame.
@@ -86,26 +74,15 @@ class Backend {
   // for planes that overlap, for a scissor of negative size, or for more than kMaxTriangles triangles. Throws
   // std::bad_alloc if memory runs out, and std::length_error if the tiles' triangle lists exceed 2^32
   // entries; then the content of the frame is undefined, and the backend remains usable.
-  void draw(std::span<const ScreenTriangle> triangles, FrameView frame, const RenderPass& pass,
-            const Execution& execution);
+  void draw(std::span<const ScreenTriangle> triangles, FrameView frame, const RenderPass& pass = {},
+            const Execution& execution = {});
   // The same for a front end's output. Also throws std::invalid_argument if that was made for a frame of
   // another size.
-  void draw(const ScreenTriangles& triangles, FrameView frame, const RenderPass& pass,
-            const Execution& execution);
-  // Draws a whole frame: writes all its pixels, with `background` and contract::kDepthClear where no triangle
-  // is visible.
-  void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-            const Execution& execution) {
-    draw(triangles, frame, RenderPass{background}, execution);
-  }
-  void draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
-            const Execution& execution) {
-    draw(triangles, frame, RenderPass{background}, execution);
-  }
+  void draw(const ScreenTriangles& triangles, FrameView frame, const RenderPass& pass = {},
+            const Execution& execution = {});
 
  private:
-  friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
-                   Backend& backend, FrameView frame, const RenderPass& pass, const Execution& execution);
+  friend struct DrawAccess;  // internal
   // Whether frames may lack a payload plane. Otherwise the backend gets a scratch plane.
   virtual bool draws_depth_only() const { return false; }
   // Draws the triangles of a source. Returns false if it cannot, before it writes to the frame; then
@@ -118,18 +95,6 @@ class Backend {
 
   std::vector<std::uint32_t> unread_payload_;
 };
-
-// Frontend::run() and Backend::draw() in one call: the same picture and Frontend::stats(). `tiled` draws
-// streams of small triangles faster and with less memory: it does not keep screen triangles that become
-// coverage masks. A stream's triangles are made on the threads of `execution`, a scene's on those of
-// `options`. If clipping adds more than about an eighth to them, they are made twice in every frame. Throws
-// what the two throw, and std::invalid_argument if `options` state another size than `frame` has.
-void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
-          FrameView frame, const RenderPass& pass, const Execution& execution);
-inline void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
-                 Backend& backend, FrameView frame, std::uint32_t background, const Execution& execution) {
-  draw(drawable, frontend, options, backend, frame, RenderPass{background}, execution);
-}
 
 struct BackendInfo {
   std::string_view name;     // the key in command line, tests, results and charts

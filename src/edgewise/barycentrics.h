@@ -41,21 +41,20 @@ struct BarycentricsView {
 //
 // `ids` is a frame of `drawable` alone, drawn with `options`, where payload is Payload::id. A pixel is
 // background if its depth is contract::kDepthClear; other depths do not count. So if the frame shows several
-// draws, pass a copy of its depths in which the pixels of the others are background. The result has the same
-// bits on every SIMD target and for every number of threads. Each of options.threads threads keeps less than
-// 1 MB until the call ends. A pixel costs three edge functions, nine products and three divisions, in
-// doubles. A visible triangle is also transformed again, once or a few times; with triangles of a few pixels,
-// this costs more.
+// draws, pass a copy of its depths in which the pixels of the others are background. Each thread
+// keeps less than 1 MB until the call ends. A pixel costs three edge functions, nine products and three
+// divisions, in doubles. A visible triangle is also transformed again, once or a few times; with triangles of
+// a few pixels, this costs more.
 //
 // Throws std::invalid_argument
 // - for planes that cannot be read or written, or that overlap in memory, for options of another size than
-//   the frame or another payload than ids, for a camera, an instance's mesh index or matrix, a thread count,
-//   a SIMD target or a number of triangles or a first id that Frontend::run() throws for, and for flags that
-//   are neither empty nor one per triangle. Then nothing has been written.
+//   the frame or another payload than ids, for a camera, an instance's mesh index or matrix, a number of
+//   triangles, a first id or an execution that Frontend::run() throws for, and for flags that are neither
+//   empty nor one per triangle. Then nothing has been written.
 // - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
 //   frame shows something else. Then the content of the planes is undefined, as it is after std::bad_alloc.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
-                  const BarycentricsView& out);
+                  const BarycentricsView& out, const Execution& execution = {});
 
 }  // namespace edgewise
 #pragma GCC visibility pop

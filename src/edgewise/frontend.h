@@ -12,9 +12,9 @@
 #include <span>
 #include <string_view>
 
+#include "edgewise/execution.h"
 #include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
-#include "edgewise/simd_target.h"
 
 namespace edgewise {
 class TriangleSource;  // internal
@@ -56,12 +56,10 @@ struct FrontendOptions {
   // The id of the first triangle. A draw over others sets it to the number of triangles that they submitted:
   // then two draws equal one of both, ids included.
   std::uint32_t first_id = 0;
-  int threads = 1;  // at most; 1 … kMaxThreads (see Execution)
   // For measurements: keeps each triangle's vertices as they were before snapping, and does not drop
   // triangles that snapping leaves without area. Slower.
   bool keep_unsnapped = false;
   bool keep_states = false;  // records the TriangleState of each triangle; slower, same triangles
-  SimdTarget target = SimdTarget::best;
 };
 
 // The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. A scene's z01 is the
@@ -95,15 +93,9 @@ struct FrontendStats {
   bool operator==(const FrontendStats&) const = default;
 };
 
-class Backend;
-struct Execution;
-struct FrameView;
-struct RenderPass;
-
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 9 bytes per instance,
-// - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() makes a
-//   stream's triangles while the backend bins them,
+// - after run(), 40 bytes per visible triangle, and address space for as many per submitted one,
 // - less than 8 MB per thread,
 // - with keep_unsnapped, 36 bytes more per visible triangle and less than 6 MB more per thread,
 // - with keep_states, 1 byte per submitted triangle.
@@ -117,21 +109,22 @@ class Frontend {
 
   // Returns the visible triangles in submission order. They lie in this object's memory and are valid until
   // the next run() or draw() with this object, or its destruction. Backend::draw() throws if the frame is not
-  // options.width x options.height pixels. Neither argument is kept. Several front ends may run one drawable
-  // at once.
+  // options.width x options.height pixels. Keeps no reference to its arguments. Several front ends may run
+  // one drawable at once.
   //
   // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
-  // - a camera, image size or thread count out of range, or matrices that camera.h excludes,
+  // - a camera or image size out of range, or matrices that camera.h excludes,
   // - an instance whose mesh index the scene lacks, or whose matrix is not finite and affine,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,
   // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view,
   // - a mesh whose clusters are not one per kClusterTriangles triangles, or whose origin is not finite,
   // - more than kMaxTriangles triangles (before memory is allocated for them), or ids that reach it,
-  // - a SIMD target that this machine cannot run.
+  // - an invalid execution.
   // The object may be used again after an exception. Boxes of clusters are not checked: if positions or
   // triangles have changed since clusters_of(), triangles may be missing.
-  ScreenTriangles run(const Drawable& drawable, const FrontendOptions& options);
+  ScreenTriangles run(const Drawable& drawable, const FrontendOptions& options,
+                      const Execution& execution = {});
   // Counts of the last call of run(), or of draw().
   const FrontendStats& stats() const;
   // One entry per triangle that run() returned, if keep_unsnapped was set. Empty otherwise and after an
@@ -142,11 +135,11 @@ class Frontend {
   std::span<const TriangleState> states() const;
 
  private:
-  friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
-                   Backend& backend, FrameView frame, const RenderPass& pass, const Execution& execution);
-  // Returns a source for up to `workers` workers, or null if run() must be called. Throws what that throws.
-  // The source refers to `drawable`, and is valid until end_source(), which completes stats().
-  TriangleSource* start_source(const Drawable& drawable, const FrontendOptions& options, int workers);
+  friend struct DrawAccess;  // internal
+  // Returns a source for up to execution.threads workers, or null if run() must be called. Throws what that
+  // throws. The source refers to `drawable`, and is valid until end_source(), which completes stats().
+  TriangleSource* start_source(const Drawable& drawable, const FrontendOptions& options,
+                               const Execution& execution);
   void end_source();
 
   struct [[gnu::visibility("hidden")]] State;

@@ -12,6 +12,7 @@
 #include <string>
 #include <variant>
 
+#include "core/execution.h"
 #include "core/float_state.h"
 #include "edgewise/contract.h"
 #include "frontend/in_order.h"
@@ -73,23 +74,23 @@ struct Frontend::State {
   std::size_t state_count = 0;  // valid ones
   FrontendStats stats;
   FrontendOptions options;
+  Execution execution;
   std::variant<std::monostate, StreamSource, SceneSource> source;
 
   // Throws std::invalid_argument.
-  void set(const FrontendOptions& o) {
+  void set(const FrontendOptions& o, const Execution& e) {
     unsnapped_count = state_count = 0;
     for (const int side : {o.width, o.height})
       if (side < 1 || side > contract::kMaxImageSide)
         throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
                                     std::to_string(contract::kMaxImageSide));
-    check_threads(o.threads);
+    execution = checked(e);
     options = o;
-    options.target = resolve(o.target);
   }
 
   // As many as have work.
   int workers_for(std::size_t count, std::size_t length) const {
-    const auto threads = count < kWorthThreads ? 1 : static_cast<std::size_t>(options.threads);
+    const auto threads = count < kWorthThreads ? 1 : static_cast<std::size_t>(execution.threads);
     return static_cast<int>(std::clamp((count + length - 1) / length, std::size_t{1}, threads));
   }
 
@@ -115,12 +116,12 @@ struct Frontend::State {
                   8'000'000);  // as frontend.h promises for a thread
     static_assert(InOrder::kBuffers * (kMost + ChunkOutput::kChunkRoom) * sizeof(UnsnappedTriangle) <
                   6'000'000);
-    return std::clamp(count / (16 * static_cast<std::size_t>(options.threads)), kLeast, kMost);
+    return std::clamp(count / (16 * static_cast<std::size_t>(execution.threads)), kLeast, kMost);
   }
 
   void run_scene(const Scene& scene, std::size_t count) {
     const std::size_t length = range_length(count);
-    maker.start_frame(scene, options, options.keep_states ? states.data() : nullptr,
+    maker.start_frame(scene, options, execution.target, options.keep_states ? states.data() : nullptr,
                       workers_for(count, length));
     for_each_range(count, length,
                    [&](int worker, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& ready) {
@@ -130,7 +131,7 @@ struct Frontend::State {
   }
 
   void run_stream(const TriangleStream& stream) {
-    const StreamKernel kernel = stream_kernel(options.target);
+    const StreamKernel kernel = stream_kernel(execution.target);
     const StreamTask task{options, stream, options.keep_states ? states.data() : nullptr};
     const std::size_t count = stream.triangles.size();
     stats.triangles = count;
@@ -173,27 +174,28 @@ Frontend::~Frontend() = default;
 Frontend::Frontend(Frontend&&) noexcept = default;
 Frontend& Frontend::operator=(Frontend&&) noexcept = default;
 
-ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& options) {
+ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& options,
+                              const Execution& execution) {
   const DefaultFloatState state;
   State& s = *state_;
-  s.set(options);
+  s.set(options, execution);
   s.run(drawable);
   return {{s.visible.screen.data(), s.order.total()}, options.width, options.height};
 }
 
 TriangleSource* Frontend::start_source(const Drawable& drawable, const FrontendOptions& options,
-                                       int workers) {
+                                       const Execution& execution) {
   State& s = *state_;
-  s.set(options);
+  s.set(options, execution);
   if (options.keep_unsnapped || options.keep_states) return nullptr;
   s.stats = {};
   const std::size_t count = checked_count(submitted(drawable), s.first_id());
-  s.order.start_frame(workers, kChunkTriangles, false);
+  s.order.start_frame(execution.threads, kChunkTriangles, false);
   if (const auto* stream = std::get_if<TriangleStream>(&drawable)) {
     s.stats.triangles = count;
-    return &s.source.emplace<StreamSource>(s.options, *stream, s.order);
+    return &s.source.emplace<StreamSource>(s.options, s.execution.target, *stream, s.order);
   }
-  s.maker.start_frame(std::get<Scene>(drawable), s.options, nullptr, workers);
+  s.maker.start_frame(std::get<Scene>(drawable), s.options, s.execution.target, nullptr, execution.threads);
   return &s.source.emplace<SceneSource>(s.maker, s.stats, count, s.order);
 }
 

@@ -29,15 +29,15 @@ void check(const Mesh& mesh) {
 
 }  // namespace
 
-void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options, TriangleState* states,
-                             int workers) {
+void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options, SimdTarget target,
+                             TriangleState* states, int workers) {
   scene_ = &scene;
   options_ = options;
   states_ = states;
-  transform_ = transform_kernel(options.target);
-  index_range_ = index_range_kernel(options.target);
-  assemble_ = assemble_kernel(options.target);
-  shade_ = shade_kernel(options.target);
+  transform_ = transform_kernel(target);
+  index_range_ = index_range_kernel(target);
+  assemble_ = assemble_kernel(target);
+  shade_ = shade_kernel(target);
   view_.emplace(scene, options.width, options.height);
   to_light_ = glm::normalize(glm::dvec3(scene.to_light));
   vertex_missing_ = false;

@@ -22,7 +22,8 @@ class SceneMaker {
  public:
   // `states` holds one per submitted triangle, to be written, or is null. The arguments must outlive the
   // frame. Throws as Frontend::run() does.
-  void start_frame(const Scene& scene, const FrontendOptions& options, TriangleState* states, int workers);
+  void start_frame(const Scene& scene, const FrontendOptions& options, SimdTarget target,
+                   TriangleState* states, int workers);
   // Appends the visible triangles of the submitted triangles begin … end - 1. Calls ready() before each
   // chunk of them. Calls with different workers may run at once. Does not throw.
   template <typename Ready>

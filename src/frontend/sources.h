@@ -13,8 +13,9 @@ namespace edgewise {
 
 class StreamSource final : public TriangleSource {
  public:
-  StreamSource(const FrontendOptions& options, const TriangleStream& stream, InOrder& order)
-      : task_{options, stream}, kernel_(stream_kernel(options.target)), order_(order) {}
+  StreamSource(const FrontendOptions& options, SimdTarget target, const TriangleStream& stream,
+               InOrder& order)
+      : task_{options, stream}, kernel_(stream_kernel(target)), order_(order) {}
   std::size_t size() const override { return task_.stream.triangles.size(); }
   std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) override {
     ChunkOutput& out = order_.output(worker);

@@ -18,12 +18,6 @@ std::size_t checked_count(std::size_t triangles, std::uint32_t first_id) {
   return triangles;
 }
 
-void check_threads(int threads) {
-  if (threads < 1 || threads > kMaxThreads)
-    throw std::invalid_argument(std::to_string(threads) + " threads are outside 1 to " +
-                                std::to_string(kMaxThreads));
-}
-
 const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
   if (instance.mesh >= scene.meshes.size())
     throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +

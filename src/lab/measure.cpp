@@ -120,7 +120,7 @@ std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTr
     if (on_progress) on_progress(static_cast<double>(done++) / static_cast<double>(sets.size()));
     drawn.clear();
     for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
-    backend.draw(drawn, frame.view(), 0, execution);
+    backend.draw(drawn, frame.view(), {0}, execution);
     for (int y = 0; y < height; ++y) {
       const std::uint32_t* depth = frame.depth_row(y);
       std::uint32_t* row = &hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];

@@ -24,10 +24,8 @@
 #include "core/float_state.h"
 #include "core/input_file.h"
 #include "core/nearest_name.h"
-#include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
-#include "edgewise/frontend.h"
-#include "edgewise/scene.h"
+#include "edgewise/draw.h"
 #include "python/arrays.h"
 #include "python/gil.h"
 
@@ -39,12 +37,11 @@ inline Cull cull_of(std::string_view name) {
   return find_named("culling mode", name, cull_modes(), [](Cull cull) { return name_of(cull); });
 }
 
-inline FrontendOptions options_of(int width, int height, std::string_view cull, int threads) {
+inline FrontendOptions options_of(int width, int height, std::string_view cull) {
   FrontendOptions options;
   options.width = width, options.height = height;
   options.cull = cull_of(cull);
   options.payload = Payload::id;
-  options.threads = threads;
   return options;
 }
 
@@ -139,7 +136,7 @@ class Drawn {
                 const std::optional<std::array<int, 4>>& scissor, const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, true);
-    FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
+    FrontendOptions options = options_of(frames.width, frames.height, cull);
     options.payload = ids ? Payload::id : Payload::colour;
     options.first_id = first_id;
     options.shade = shade;
@@ -163,7 +160,7 @@ class Drawn {
                          const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, false);
-    FrontendOptions options = options_of(frames.width, frames.height, cull, threads);
+    FrontendOptions options = options_of(frames.width, frames.height, cull);
     options.first_id = first_id;
     Floats uv(frames.shape({frames.height, frames.width, 2})),
         distance(frames.shape({frames.height, frames.width}));
@@ -172,7 +169,8 @@ class Drawn {
         static_cast<std::size_t>(frames.width) * static_cast<std::size_t>(frames.height);
     const auto fill_view = [&](const Drawable& drawable, std::size_t i) {
       edgewise::barycentrics(frames[i], drawable, options,
-                             {uvs + 2 * pixels * i, 2 * frames.width, distances + pixels * i, frames.width});
+                             {uvs + 2 * pixels * i, 2 * frames.width, distances + pixels * i, frames.width},
+                             {.threads = threads});
     };
     for_each_view(cameras, frames.views, fill_view, progress);
     return py::make_tuple(uv, distance);

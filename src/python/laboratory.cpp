@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/execution.h"
 #include "core/parallel.h"
-#include "frontend/submission.h"
 #include "lab/needs/needs.h"
 #include "lab/portable/portable.h"
 #include "lab/view_space.h"
@@ -45,8 +45,8 @@ py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int
   if (displacement && !(*displacement >= 0.0 && *displacement <= 1e6))
     throw std::invalid_argument("displacement must be 0 to 10^6");
   const auto cameras = cameras_of(views, projections);
-  const FrontendOptions options = options_of(width, height, cull, threads);
-  check_threads(threads);
+  const FrontendOptions options = options_of(width, height, cull);
+  checked({.threads = threads});
   lab::Needs found({.displacement = displacement, .threads = threads});
   lab::LeastPrecise least;
   const auto add = [&](const Drawable& drawable, std::size_t) {
@@ -77,7 +77,8 @@ Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& pro
                              const std::string& depth, int threads) {
   const lab::Conformance model{bits, ulps, guard_band, lab::find_depth_format(depth)};
   const auto cameras = cameras_of(views, projections);
-  const FrontendOptions options = options_of(width, height, cull, threads);
+  const FrontendOptions options = options_of(width, height, cull);
+  checked({.threads = threads});
   lab::PortablePixels found{};
   self.for_each_view(cameras, 1, [&](const Drawable& drawable, std::size_t) {
     const Drawable seen = lab::with_camera(drawable, {width, height});

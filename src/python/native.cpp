@@ -11,7 +11,6 @@
 
 #include "core/atomic_file.h"
 #include "core/parallel.h"
-#include "edgewise/backend.h"
 #include "edgewise/camera.h"
 #include "edgewise/contract.h"
 #include "edgewise/hash.h"
@@ -119,7 +118,7 @@ PYBIND11_MODULE(_native, m) {
     const Frames frames(payload, depth, false);
     if (frames.is_stack) throw std::invalid_argument("a hash is that of a frame of one view");
     const Released released;
-    (void)checked(frames[0], Execution{});
+    check(frames[0]);
     return hash_of(frames[0]);
   });
   m.def("visible_triangles", [](const OptionalArray& payload, const py::array& depth) {

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/execution.h"
 #include "core/float_state.h"
 #include "core/overlap.h"
 #include "core/parallel.h"
@@ -83,9 +84,9 @@ std::optional<Point> point_at(std::span<const Piece> pieces, int x, int y) {
 // Makes the screen triangles of single source triangles, as the front end does.
 class Triangles {
  public:
-  // `options` has a resolved target and asks for ids. Throws std::invalid_argument as barycentrics() does.
-  Triangles(const Drawable& drawable, const FrontendOptions& options)
-      : options_(options), scene_(std::get_if<Scene>(&drawable)) {
+  // `options` asks for ids. Throws std::invalid_argument as barycentrics() does.
+  Triangles(const Drawable& drawable, const FrontendOptions& options, SimdTarget target)
+      : options_(options), target_(target), scene_(std::get_if<Scene>(&drawable)) {
     if (scene_ == nullptr) {
       stream_ = &std::get<TriangleStream>(drawable);
       count_ = checked_count(stream_->triangles.size(), options.first_id);
@@ -105,7 +106,7 @@ class Triangles {
   // What one thread needs.
   class Maker {
    public:
-    explicit Maker(const Triangles& all) : all_(all), transform_(transform_kernel(all.options_.target)) {
+    explicit Maker(const Triangles& all) : all_(all), transform_(transform_kernel(all.target_)) {
       out_.triangles = pieces_;
       out_.sources = &sources_;
     }
@@ -159,6 +160,7 @@ class Triangles {
 
  private:
   FrontendOptions options_;
+  SimdTarget target_;
   const Scene* scene_;
   const TriangleStream* stream_ = nullptr;
   std::optional<View> view_;  // of a scene
@@ -206,7 +208,6 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
                                 std::to_string(ids.width) + " x " + std::to_string(ids.height) + " px");
   if (options.payload != Payload::id)
     throw std::invalid_argument("barycentric coordinates need a frame of ids: Payload::id");
-  check_threads(options.threads);
   if (out.uv == nullptr && out.distance == nullptr)
     throw std::invalid_argument("barycentric coordinates need memory to write to: both planes are null");
   if ((out.uv != nullptr && out.uv_stride < 2 * ids.width) ||
@@ -225,19 +226,19 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
 }  // namespace
 
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
-                  const BarycentricsView& out) {
+                  const BarycentricsView& out, const Execution& execution) {
   const DefaultFloatState state;
   check(options, ids, out);
-  FrontendOptions resolved = options;
-  resolved.target = resolve(options.target);
-  resolved.keep_unsnapped = resolved.keep_states = false;
-  const Triangles triangles(drawable, resolved);
+  const auto [threads, tile_size, target] = checked(execution);
+  FrontendOptions plain = options;
+  plain.keep_unsnapped = plain.keep_states = false;
+  const Triangles triangles(drawable, plain, target);
 
   const auto width = static_cast<std::uint64_t>(ids.width);
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
   std::atomic<std::uint64_t> first_wrong{kNone};  // the first pixel whose triangle does not cover it
-  const int parts = std::min(ids.height, options.threads == 1 ? 1 : 8 * options.threads);
-  parallel_for(options.threads, parts, [&](int part) {
+  const int parts = std::min(ids.height, threads == 1 ? 1 : 8 * threads);
+  parallel_for(threads, parts, [&](int part) {
     constexpr Point kBackground{0.0f, 0.0f, std::numeric_limits<float>::infinity()};
     Cache cache(triangles);
     const int y0 = ids.height * part / parts, y1 = ids.height * (part + 1) / parts;

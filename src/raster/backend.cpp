@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/execution.h"
 #include "core/float_state.h"
 #include "core/overlap.h"
 #include "edgewise/contract.h"
@@ -11,7 +12,7 @@
 
 namespace edgewise {
 
-Execution checked(const FrameView& frame, const Execution& execution) {
+void check(const FrameView& frame) {
   const auto in_range = [](int side) { return side >= 1 && side <= contract::kMaxImageSide; };
   if (!in_range(frame.width) || !in_range(frame.height) || frame.stride < frame.width || !frame.depth)
     throw std::invalid_argument("frame of " + std::to_string(frame.width) + " x " +
@@ -19,14 +20,6 @@ Execution checked(const FrameView& frame, const Execution& execution) {
                                 ", cannot be drawn into");
   if (overlap(rows_of(frame, frame.depth), rows_of(frame, frame.payload)))
     throw std::invalid_argument("the frame's depth and payload overlap in memory");
-  if (execution.threads < 1 || execution.threads > kMaxThreads)
-    throw std::invalid_argument(std::to_string(execution.threads) + " threads are outside 1 to " +
-                                std::to_string(kMaxThreads));
-  if (execution.tile_size != 16 && execution.tile_size != 32 && execution.tile_size != 64)
-    throw std::invalid_argument("tile size " + std::to_string(execution.tile_size) + " is not 16, 32 or 64");
-  Execution resolved = execution;
-  resolved.target = resolve(execution.target);
-  return resolved;
 }
 
 FramePart checked(const FrameView& frame, const RenderPass& pass) {
@@ -64,7 +57,8 @@ FramePart Backend::with_payload(FramePart part) {
 void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, const RenderPass& pass,
                    const Execution& execution) {
   const DefaultFloatState state;
-  const Execution resolved = checked(frame, execution);
+  check(frame);
+  const Execution resolved = checked(execution);
   const FramePart part = checked(frame, pass);
   if (triangles.size() > kMaxTriangles)
     throw std::invalid_argument(std::to_string(triangles.size()) + " triangles are more than " +

@@ -5,8 +5,8 @@
 
 namespace edgewise {
 
-// `execution` with a resolved target. Throws std::invalid_argument.
-Execution checked(const FrameView& frame, const Execution& execution);
+// Throws std::invalid_argument for a frame that cannot be drawn into.
+void check(const FrameView& frame);
 
 // The part of a valid frame that a draw writes; it may be empty. Throws std::invalid_argument.
 FramePart checked(const FrameView& frame, const RenderPass& pass);

@@ -23,7 +23,7 @@ void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std
     pieces.resize(std::max<std::size_t>(pieces.size(), t.payload + std::size_t{1}));
     ++pieces[t.payload];
   }
-  wireframe.draw(triangles, scratch, 0, execution);
+  wireframe.draw(triangles, scratch, {0}, execution);
   const auto visible_near = [&](std::uint32_t source, int x, int y) {
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
       for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)

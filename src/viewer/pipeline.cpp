@@ -104,7 +104,8 @@ Picture Pipeline::draw(const lab::Choice& choice, const View& view) {
   Picture picture;
   FrontendOptions options = view.frontend;
   options.payload = Payload::colour;
-  picture.frontend_ms = milliseconds([&] { screen_ = frontend_.run(view.world.drawable(), options); });
+  picture.frontend_ms =
+      milliseconds([&] { screen_ = frontend_.run(view.world.drawable(), options, view.execution); });
   picture.stats = frontend_.stats();
   const lab::Size size = size_of(view);
   if (!frame_ || frame_->width() != size.width || frame_->height() != size.height) {
@@ -121,7 +122,7 @@ Picture Pipeline::draw(const lab::Choice& choice, const View& view) {
 void Pipeline::draw_ours(const lab::Choice& choice, const View& view, Picture& picture) {
   Backend& by = backend(choice.coverage->info.name);
   const std::uint32_t background = tools::background_of(Payload::colour);
-  picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), background, view.execution); });
+  picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), {background}, view.execution); });
   picture.image = to_image(*frame_);
 }
 
@@ -153,8 +154,9 @@ void Pipeline::run_without_hidden_faces(const lab::FacingMethod& method, const V
     hidden_.emplace(scene, method);
     hidden_of_ = &scene;
   }
-  picture.frontend_ms = milliseconds(
-      [&] { screen_ = frontend_.run(drops ? hidden_->drop(scene) : view.world.drawable(), options); });
+  picture.frontend_ms = milliseconds([&] {
+    screen_ = frontend_.run(drops ? hidden_->drop(scene) : view.world.drawable(), options, view.execution);
+  });
 }
 
 void Pipeline::outline(const lab::Choice& choice, const View& view, Image& image) {
@@ -169,7 +171,7 @@ std::vector<TriangleState> Pipeline::states(const lab::Choice& choice, const Vie
   FrontendOptions options = view.frontend;
   options.keep_states = true;
   if (!choice.our_facing()) options.cull = Cull::none;
-  frontend_of_ids_.run(view.world.drawable(), options);
+  frontend_of_ids_.run(view.world.drawable(), options, view.execution);
   std::vector<TriangleState> states(frontend_of_ids_.states().begin(), frontend_of_ids_.states().end());
   if (choice.our_facing()) return states;
   double unused_ms = 0;
@@ -185,7 +187,7 @@ Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {
   options.payload = Payload::id;
   options.keep_unsnapped = true;
   options.cull = cull;
-  const auto screen = frontend_of_ids_.run(view.world.drawable(), options);
+  const auto screen = frontend_of_ids_.run(view.world.drawable(), options, view.execution);
   Triangles triangles{
       lab::unsnapped(screen, frontend_of_ids_.unsnapped()), {screen.begin(), screen.end()}, 0};
   for (auto& t : triangles.floats) ++t.payload;
@@ -264,7 +266,7 @@ Pipeline::VisibleIds Pipeline::visible_ids_of(const lab::Choice& choice, const V
   if (!choice.our_visibility()) return visible_ids_by(*choice.visibility, view, triangles, spent_ms);
   spent_ms = milliseconds([&] {
     if (choice.our_coverage())
-      backend(choice.coverage->info.name).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
+      backend(choice.coverage->info.name).draw(triangles.snapped, canvas_->frame.view(), {0}, view.execution);
     else
       choice.coverage->draw({triangles.floats, triangles.snapped}, *canvas_, view.execution);
   });
@@ -289,7 +291,7 @@ Pipeline::VisibleIds Pipeline::visible_ids_by(const lab::VisibilityMethod& metho
 Pipeline::VisibleIds Pipeline::true_visible_ids(const View& view, const Triangles& triangles, Truth truth,
                                                 std::string_view by) {
   if (truth == Truth::contract) {
-    backend(by).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
+    backend(by).draw(triangles.snapped, canvas_->frame.view(), {0}, view.execution);
     return visible_ids_in(canvas_->frame);
   }
   const auto id_of = [&](std::uint32_t i) {

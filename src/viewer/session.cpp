@@ -360,8 +360,6 @@ View Session::view_of(std::size_t i, tools::Size size) const {
   view.frontend.cull = side.cull_front ? (side.cull_back ? Cull::both : Cull::front)
                                        : (side.cull_back ? Cull::back : Cull::none);
   view.frontend.shade = !state_.stream && state_.lit;
-  view.frontend.threads = state_.execution.threads;
-  view.frontend.target = state_.execution.target;
   return view;
 }
 

@@ -136,7 +136,7 @@ EXPORT(judge) const Verdict* judge(int index) {
     if (!from_front_end) scene.snapped = snapped(scene.floats);
     truth = float_coverage(scene.input(), scene.window(), 1);
     Framebuffer picture(scene.size.width, scene.size.height);
-    find_backend("tiled").make()->draw(scene.snapped, picture.view(), 0xFF000000, {});
+    find_backend("tiled").make()->draw(scene.snapped, picture.view(), {0xFF000000});
     hash = hash_of(picture.view());
   }
   const DrawnRuns drawn(method, scene.input(), scene.window());

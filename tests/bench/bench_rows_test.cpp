@@ -241,12 +241,6 @@ TEST(BenchSuite, TimesThreeCullingModes) {
   EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_flag(1, kSameFace));
 }
 
-TEST(BenchWorkload, FrontEndRunsOnTheTargetOfTheExecution) {
-  const FrontendOptions options = cube()->frontend_options({3, 64, SimdTarget::scalar});
-  EXPECT_EQ(options.target, SimdTarget::scalar);
-  EXPECT_EQ(options.threads, 3);
-}
-
 std::map<std::string, Row> method_rows(const SuiteOptions& options) {
   std::map<std::string, Row> rows;
   for (Row& row : make_suite(options))
@@ -463,7 +457,7 @@ TEST(CostModel, CountsTheBlocksThatTheReferenceDraws) {
   Frontend frontend;
   for (const ScreenTriangle& triangle : frontend.run(stream, {})) {
     Framebuffer frame(request.width, request.height);
-    backends().front().make()->draw({&triangle, 1}, frame.view(), 0, {});
+    backends().front().make()->draw({&triangle, 1}, frame.view());
     std::set<std::pair<int, int>> blocks;
     for (int y = 0; y < request.height; ++y)
       for (int x = 0; x < request.width; ++x)

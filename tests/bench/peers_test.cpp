@@ -38,7 +38,7 @@ struct Pictures {
   std::vector<std::uint32_t> theirs;
 
   explicit Pictures(std::vector<ScreenTriangle> given) : triangles(std::move(given)) {
-    backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
+    backends().front().make()->draw(triangles, ours.view(), {kNoTriangle});
     for (int y = 0; y < 64; ++y) theirs.insert(theirs.end(), ours.payload_row(y), ours.payload_row(y) + 64);
   }
   PeerJudgement judged() const { return judge(ours, theirs, triangles); }
@@ -152,7 +152,7 @@ class Mirror final : public PeerFrame {
       if (is_wrong_) std::rotate(t.z, t.z + 1, t.z + 3), t.x_sub[0] += kSub;
       triangles.push_back(t);
     }
-    backends().back().make()->draw(triangles, frame_.view(), scene_.background, {});
+    backends().back().make()->draw(triangles, frame_.view(), {scene_.background});
   }
   std::vector<std::uint32_t> read() override {
     std::vector<std::uint32_t> pixels;

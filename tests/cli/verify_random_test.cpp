@@ -285,9 +285,10 @@ TEST(RandomFindings, IncludeEveryKindOfMistake) {
 TEST(RandomFindings, IncludeAWrongFrontEnd) {
   const TempDir folder;
   Plan plan = plan_of(11, 60);
-  plan.frontend = [](Frontend& frontend, const Drawable& drawable, const FrontendOptions& options) {
-    const std::span<const ScreenTriangle> all = frontend.run(drawable, options);
-    return options.threads > 1 && !all.empty() ? all.first(all.size() - 1) : all;
+  plan.frontend = [](Frontend& frontend, const Drawable& drawable, const FrontendOptions& options,
+                     const Execution& execution) {
+    const std::span<const ScreenTriangle> all = frontend.run(drawable, options, execution);
+    return execution.threads > 1 && !all.empty() ? all.first(all.size() - 1) : all;
   };
   plan.failure_folder = folder.path() / "failures";
   const std::string finding = finding_with(plan, "(stream): front end (");
@@ -296,8 +297,9 @@ TEST(RandomFindings, IncludeAWrongFrontEnd) {
 
 TEST(RandomFindings, IncludeAFrontEndThatIsWrongWithMatrices) {
   Plan plan = plan_of(16, 60);
-  plan.frontend = [](Frontend& frontend, const Drawable& drawable, const FrontendOptions& options) {
-    const std::span<const ScreenTriangle> all = frontend.run(drawable, options);
+  plan.frontend = [](Frontend& frontend, const Drawable& drawable, const FrontendOptions& options,
+                     const Execution& execution) {
+    const std::span<const ScreenTriangle> all = frontend.run(drawable, options, execution);
     const auto* scene = std::get_if<Scene>(&drawable);
     const bool wrong = scene != nullptr && scene->matrices && !all.empty();
     return wrong ? all.first(all.size() - 1) : all;

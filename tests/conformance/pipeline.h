@@ -107,8 +107,7 @@ class Pipeline {
   std::span<const ScreenTriangle> triangles(const Drawable& drawable, const View& view) {
     FrontendOptions options{.width = view.width, .height = view.height, .cull = view.cull};
     options.payload = Payload::id;
-    options.target = target_;
-    return frontend_.run(drawable, options);
+    return frontend_.run(drawable, options, {.target = target_});
   }
   const FrontendStats& stats() const { return frontend_.stats(); }
 
@@ -119,7 +118,7 @@ class Pipeline {
     if (!frame_ || frame_->width() != view.width || frame_->height() != view.height)
       frame_ = std::make_unique<Framebuffer>(view.width, view.height);
     lab::poison(*frame_);
-    backend_->draw(triangles, frame_->view(), kNoTriangle, {.target = target_});
+    backend_->draw(triangles, frame_->view(), {kNoTriangle}, {.target = target_});
     return *frame_;
   }
 

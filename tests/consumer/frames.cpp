@@ -42,13 +42,13 @@ int main() {
   std::size_t after_first = 0;
   for (int i = 0; i < kFrames; ++i) {
     std::get<Scene>(drawable).camera.yaw = 0.01f * static_cast<float>(i);  // radians
-    backend->draw(frontend.run(drawable, {.width = kWidth, .height = kHeight}), frame, kBackground, {});
+    backend->draw(frontend.run(drawable, {.width = kWidth, .height = kHeight}), frame, {kBackground});
     if (i == 0) after_first = allocations;
   }
   const std::size_t later = allocations - after_first;
   const auto drawn =
       static_cast<std::ptrdiff_t>(payload.size()) - in_frame(kBackground) - in_frame(kUntouched);
-  backend->draw({}, frame, kBackground, {});
+  backend->draw({}, frame, {kBackground});
   const bool empty = in_frame(kBackground) == kWidth * kHeight;
   const bool kept = in_frame(kUntouched) == (kStride - kWidth) * kHeight;
   std::printf("%zu allocations in the first frame, %zu in %d later ones; %td pixels drawn\n", after_first,

@@ -1,8 +1,7 @@
 // Prints the hashes that `edgewise hash SCENE… --size 320x160 --frames 4 --fps 32` prints, also if a compiler
 // may reorder this program's floating-point arithmetic. SCENE: a built-in scene of meshes, or an OBJ file.
-#include <edgewise/backend.h>
 #include <edgewise/builtin.h>
-#include <edgewise/frontend.h>
+#include <edgewise/draw.h>
 #include <edgewise/hash.h>
 #include <edgewise/obj_file.h>
 
@@ -23,7 +22,7 @@ int main(int count, char** arguments) try {
   const auto backend = find_backend("tiled").make();
   Framebuffer frame(kWidth, kHeight);
   const auto draw_and_hash = [&](const Drawable& drawable) {
-    draw(drawable, frontend, {.width = kWidth, .height = kHeight}, *backend, frame.view(), rgb(0, 0, 0), {});
+    draw(drawable, frontend, {.width = kWidth, .height = kHeight}, *backend, frame.view(), {rgb(0, 0, 0)});
     return hash_of(frame);
   };
   std::vector<std::uint64_t> all;

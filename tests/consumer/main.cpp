@@ -1,8 +1,7 @@
 // Draws a pyramid, or the OBJ file given as argument, into the program's own memory. Then prints which
 // triangle is visible in the middle pixel.
-#include <edgewise/backend.h>
 #include <edgewise/contract.h>
-#include <edgewise/frontend.h>
+#include <edgewise/draw.h>
 #include <edgewise/image.h>
 #include <edgewise/obj_file.h>
 
@@ -28,10 +27,10 @@ int main(int count, char** arguments) try {
 
   Frontend frontend;  // it and the backend keep their memory: make them once, draw often
   const auto backend = find_backend("tiled").make();
-  draw(scene, frontend, {.width = width, .height = height}, *backend, frame, rgb(30, 30, 40), {});
+  draw(scene, frontend, {.width = width, .height = height}, *backend, frame, {rgb(30, 30, 40)});
   write_image("picture.png", to_image(frame));
-  const FrontendOptions ids{.width = width, .height = height, .payload = Payload::id, .threads = 2};
-  draw(scene, frontend, ids, *backend, frame, 0xFFFFFFFF, {.threads = 2});
+  const FrontendOptions ids{.width = width, .height = height, .payload = Payload::id};
+  draw(scene, frontend, ids, *backend, frame, {0xFFFFFFFF}, {.threads = 2});
   constexpr int middle = height / 2 * stride + width / 2;
   std::printf("triangle %u, depth %.6f\n", payload[middle], contract::depth01(depth[middle]));
 } catch (const std::exception& error) {

@@ -1,6 +1,5 @@
 // Draws a mesh file and writes the picture.
-#include <edgewise/backend.h>
-#include <edgewise/frontend.h>
+#include <edgewise/draw.h>
 #include <edgewise/image.h>
 #include <edgewise/obj_file.h>
 
@@ -11,7 +10,7 @@ int main() {
   Frontend frontend;  // it and the backend keep their memory: make them once, draw often
   const auto backend = find_backend("tiled").make();
   Framebuffer frame(640, 360);
-  draw(scene, frontend, {.width = 640, .height = 360, .threads = 2}, *backend, frame.view(), rgb(30, 30, 40),
-       {.threads = 2});  // front end and backend
+  draw(scene, frontend, {.width = 640, .height = 360}, *backend, frame.view(), {rgb(30, 30, 40)},
+       {.threads = 2});
   write_image("mesh.png", to_image(frame.view()));
 }

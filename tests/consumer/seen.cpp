@@ -1,7 +1,6 @@
 // Draws ids with the camera of a computer vision program, and asks the frame what it shows.
-#include <edgewise/backend.h>
 #include <edgewise/barycentrics.h>
-#include <edgewise/frontend.h>
+#include <edgewise/draw.h>
 #include <edgewise/visible.h>
 
 #include <cstdio>
@@ -23,7 +22,7 @@ int main() {
   const FrontendOptions options{.width = width, .height = height, .payload = Payload::id};
   Frontend frontend;
   Framebuffer ids(width, height);
-  draw(scene, frontend, options, *find_backend("tiled").make(), ids.view(), RenderPass{}, {});
+  draw(scene, frontend, options, *find_backend("tiled").make(), ids.view());
   for (const std::uint32_t pixels : pixels_per_instance(ids, scene)) std::printf("%u px\n", pixels);
 
   std::vector<float> uv(2 * width * height), distance(width * height);

@@ -1,6 +1,5 @@
 // Draws two overlapping squares, and prints the picture's hash; square.c draws the same.
-#include <edgewise/backend.h>
-#include <edgewise/frontend.h>
+#include <edgewise/draw.h>
 #include <edgewise/hash.h>
 
 #include <cstdio>
@@ -22,6 +21,6 @@ int main() {
   Frontend frontend;
   Framebuffer frame(kWidth, kHeight);
   draw(scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
-       *find_backend("tiled").make(), frame.view(), rgb(0, 0, 0), {});
+       *find_backend("tiled").make(), frame.view(), {rgb(0, 0, 0)});
   std::printf("%016llx\n", static_cast<unsigned long long>(hash_of(frame)));
 }

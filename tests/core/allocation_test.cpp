@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "edgewise/builtin.h"
-#include "edgewise/frontend.h"
+#include "edgewise/draw.h"
 #include "frontend/mesh_clusters.h"
 #include "lab/choice.h"
 #include "lab/hidden_faces.h"
@@ -81,7 +81,7 @@ TEST_P(Allocations, OfABackendHappenInTheFirstFrameOnly) {
       const auto triangles = testing::adversarial(family, count, kWidth, kHeight, 7);
       const auto draw = [&] {
         FrameView view = frame.view();
-        backend->draw(triangles, view, testing::kBackground, {.threads = threads});
+        backend->draw(triangles, view, {testing::kBackground}, {.threads = threads});
         view.payload = nullptr;
         backend->draw(triangles, view, {.clear = false, .scissor = {9, 9, 99, 99}}, {.threads = threads});
       };
@@ -97,9 +97,8 @@ TEST(FrontendAllocations, HappenInTheFirstFrameOnly) {
   for (const SceneInfo& info : builtin_scenes()) {
     const Drawable drawable = info.make({.width = 640, .height = 480, .scale = 0.02});
     for (const int threads : {1, 2, 8}) {
-      const FrontendOptions options{.width = 640, .height = 480, .threads = threads};
       Frontend frontend;
-      const auto run = [&] { frontend.run(drawable, options); };
+      const auto run = [&] { frontend.run(drawable, {.width = 640, .height = 480}, {.threads = threads}); };
       EXPECT_GT(allocations_in(run), 0u) << info.name;
       EXPECT_EQ(allocations_of_each(run), 0u) << info.name << ", " << threads << " threads";
     }
@@ -110,11 +109,11 @@ TEST_P(Allocations, OfAFrameHappenInTheFirstFrameOnly) {
   const Drawable stream = find_scene("micro").make({.width = 320, .height = 200, .scale = 0.01});
   const auto backend = testing::find_drawer(GetParam()).make();
   Framebuffer frame(320, 200);
+  const FrontendOptions options{.width = 320, .height = 200, .cull = Cull::none};
   for (const int threads : {1, 2}) {
     Frontend frontend;
-    const FrontendOptions options{.width = 320, .height = 200, .cull = Cull::none, .threads = threads};
     const auto draw_it = [&] {
-      draw(stream, frontend, options, *backend, frame.view(), testing::kBackground, {.threads = threads});
+      draw(stream, frontend, options, *backend, frame.view(), {testing::kBackground}, {.threads = threads});
     };
     draw_it();
     EXPECT_EQ(allocations_of_each(draw_it), 0u) << threads << " threads";
@@ -131,10 +130,11 @@ TEST(FrontendAllocations, DoNotHappenWhenTheCameraTurns) {
     Scene& scene = std::get<Scene>(drawable);
     if (scene.instances.size() > 1) scene.camera.position = glm::vec3(0);
     for (const int threads : {1, 2}) {
-      const FrontendOptions options{.width = 64, .height = 48, .threads = threads};
-      Frontend().run(drawable, options);  // oneTBB allocates when it starts
+      const FrontendOptions options{.width = 64, .height = 48};
+      const Execution execution{.threads = threads};
+      Frontend().run(drawable, options, execution);  // oneTBB allocates when it starts
       Frontend frontend;
-      const auto run = [&] { frontend.run(drawable, options); };
+      const auto run = [&] { frontend.run(drawable, options, execution); };
       scene.camera.pitch = 1.5f;  // up, where few clusters are
       run();
       scene.camera.pitch = 0;

@@ -59,7 +59,7 @@ void expect_refused(const std::function<void()>& action) {
 
 TEST(LimitsDeathTest, TheFrontEndRefusesTooManyTrianglesAndThreads) {
   expect_refused([] { Frontend().run(too_many(), {}); });
-  expect_refused([] { Frontend().run(Scene{}, {.threads = kMaxThreads + 1}); });
+  expect_refused([] { Frontend().run(Scene{}, {}, {.threads = kMaxThreads + 1}); });
   expect_refused([] { Frontend().run(Scene{}, {.width = contract::kMaxImageSide + 1}); });
 }
 
@@ -77,7 +77,7 @@ TEST(LimitsDeathTest, EveryBackendRefusesTooManyTriangles) {
     expect_refused([&] {
       const ScreenTriangle one{};  // never read
       Framebuffer frame(8, 8);
-      info.make()->draw(std::span(&one, kMaxTriangles + 1), frame.view(), 0, {});
+      info.make()->draw(std::span(&one, kMaxTriangles + 1), frame.view());
     });
 }
 
@@ -98,7 +98,7 @@ TEST(Limits, TheLargestImageIsDrawn) {
     Frontend frontend;
     lab::poison(frame);
     info.make()->draw(frontend.run(stream, {.width = kSide, .height = kSide, .cull = Cull::none}),
-                      frame.view(), 0, {.threads = 2});
+                      frame.view(), {0}, {.threads = 2});
     std::uint64_t wrong = 0;
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) wrong += frame.payload_row(y)[x] != 7;

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
-#include "edgewise/frontend.h"
+#include "edgewise/draw.h"
 #include "message_of.h"
 
 namespace edgewise {
@@ -60,8 +59,8 @@ TEST(Overlap, OfAFramesPlanesIsRefusedBeforeADraw) {
   Frontend frontend;
   const auto messages = [&](std::ptrdiff_t payload, std::ptrdiff_t stride) {
     const FrameView frame{memory.data(), memory.data() + payload, kSide, kSide, stride};
-    const std::string of_both = message_of([&] { draw(stream, frontend, options, *backend, frame, 0, {}); });
-    EXPECT_EQ(message_of([&] { backend->draw(frontend.run(stream, options), frame, 0, {}); }), of_both);
+    const std::string of_both = message_of([&] { draw(stream, frontend, options, *backend, frame); });
+    EXPECT_EQ(message_of([&] { backend->draw(frontend.run(stream, options), frame); }), of_both);
     return of_both;
   };
   constexpr const char* kOverlap = "the frame's depth and payload overlap in memory";

@@ -59,7 +59,7 @@ TEST(VectorState, BackendsLeaveUpperHalvesUnused) {
         Framebuffer frame(kWidth, kHeight);
         const auto backend = info.make();
         clear_upper_halves();
-        backend->draw(triangles, frame.view(), testing::kBackground, execution);
+        backend->draw(triangles, frame.view(), {testing::kBackground}, execution);
         const std::uint32_t in_use = *upper_halves_in_use();
         clear_upper_halves();
         EXPECT_EQ(in_use, 0u) << info.name << ", " << name_of(target) << ", " << triangles.size()

@@ -62,9 +62,8 @@ TEST(Faces, AreTheSameOnEveryTargetAndThreadCount) {
       options.keep_unsnapped = false;
       for (const SimdTarget target : supported_targets())
         for (const int threads : {1, 3}) {
-          options.target = target;
-          options.threads = threads;
-          expect_same_triangles(run(scene, options).triangles, expected, std::string(name_of(target)));
+          const auto found = run(scene, options, {.threads = threads, .target = target}).triangles;
+          expect_same_triangles(found, expected, std::string(name_of(target)));
         }
     }
 }

@@ -93,19 +93,15 @@ std::vector<ScreenTriangle> one_by_one(const Drawable& drawable, FrontendOptions
   return triangles;
 }
 
-void expect_all_alike(const Drawable& drawable, FrontendOptions options) {
+void expect_all_alike(const Drawable& drawable, const FrontendOptions& options) {
   const auto expected = one_by_one(drawable, options);
-  options.threads = 1;
-  options.target = SimdTarget::scalar;
-  const FrontendStats stats = run(drawable, options).stats;
+  const FrontendStats stats = run(drawable, options, {.target = SimdTarget::scalar}).stats;
   EXPECT_GT(stats.emitted, 0u);
   const auto targets = supported_targets();
   for (const SimdTarget target : testing::kRacesOnly ? targets.last(1) : targets)
     for (const int threads : {1, 2, 5}) {
       if (testing::kRacesOnly && threads == 1) continue;
-      options.threads = threads;
-      options.target = target;
-      const auto found = run(drawable, options);
+      const auto found = run(drawable, options, {.threads = threads, .target = target});
       const std::string what = std::string(name_of(target)) + ", " + std::to_string(threads) + " threads";
       expect_same_triangles(expected, found.triangles, what);
       EXPECT_EQ(std::memcmp(&stats, &found.stats, sizeof stats), 0) << what;
@@ -270,7 +266,7 @@ TEST(FrontendKernels, ManyMeshesAreTheSameOnEveryTargetAndThreadCount) {
 
 TEST(FrontendKernels, ManyMeshesGiveTheSameAsEachAlone) {
   const Scene scene = scene_of_many_meshes();
-  const FrontendOptions options{.width = 300, .height = 200, .threads = 2};
+  const FrontendOptions options{.width = 300, .height = 200};
   std::vector<ScreenTriangle> expected;
   FrontendStats sum;
   Scene alone;
@@ -280,11 +276,11 @@ TEST(FrontendKernels, ManyMeshesGiveTheSameAsEachAlone) {
     alone.meshes.assign(1, scene.meshes[instance.mesh]);
     alone.instances[0] = instance;
     alone.instances[0].mesh = 0;
-    const auto [triangles, stats] = run(alone, options);
+    const auto [triangles, stats] = run(alone, options, {.threads = 2});
     expected.insert(expected.end(), triangles.begin(), triangles.end());
     sum += stats;
   }
-  const auto together = run(scene, options);
+  const auto together = run(scene, options, {.threads = 2});
   expect_same_triangles(expected, together.triangles, "together");
   EXPECT_EQ(std::memcmp(&sum, &together.stats, sizeof sum), 0);
 }
@@ -416,8 +412,8 @@ TEST(FrontendKernels, StreamsOfAnyLengthKeepTheOrder) {
     TriangleStream stream{100, 100, {}};
     for (std::size_t i = 0; i < count; ++i)
       stream.triangles.push_back({{{1, 1, 0.5f}, {50, 1, 0.5f}, {1, 50, 0.5f}}, 0});
-    const auto found =
-        run(stream, {.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = 3});
+    const auto found = run(stream, {.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id},
+                           {.threads = 3});
     ASSERT_EQ(found.triangles.size(), count);
     for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(found.triangles[i].payload, i);
   }
@@ -433,10 +429,9 @@ TEST(FrontendKernels, GrowsForPiecesOfClippedTriangles) {
   mesh.colours.assign(kCount, 7);
   scene.instances.push_back({});
   Frontend frontend;
-  const FrontendOptions options{
-      .width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = 2};
+  const FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id};
   for (int frame = 0; frame < 2; ++frame) {
-    const auto found = frontend.run(scene, options);
+    const auto found = frontend.run(scene, options, {.threads = 2});
     ASSERT_EQ(found.size(), 2 * kCount);
     EXPECT_EQ(frontend.stats().clipped_near, kCount);
     for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / 2);
@@ -450,7 +445,7 @@ TEST(FrontendKernels, NamesTheTriangleWhoseVertexIsMissing) {
     for (const int threads : {1, 2}) {
       Frontend frontend;
       try {
-        frontend.run(scene, {.threads = threads, .target = target});
+        frontend.run(scene, {}, {.threads = threads, .target = target});
         ADD_FAILURE() << "no exception";
       } catch (const std::invalid_argument& e) {
         EXPECT_STREQ(e.what(), "triangle 12345 names vertex 9001 of 9001");
@@ -467,16 +462,16 @@ TEST(FrontendKernels, NamesTheMissingVertexOfAMeshAmongMany) {
   mesh.triangles[2345].z = 70'000;
   Instance& instance = scene.instances[static_cast<std::size_t>(&mesh - scene.meshes.data())];
   instance.translation = {0, 0, -5};
-  EXPECT_EQ(message_of([&] { run(scene, {.threads = 2}); }), "triangle 2345 names vertex 70000 of 2503");
+  EXPECT_EQ(message_of([&] { run(scene, {}, {.threads = 2}); }), "triangle 2345 names vertex 70000 of 2503");
   instance.translation = {0, 0, 50};
-  EXPECT_GT(run(scene, {.threads = 2}).stats.emitted, 0u) << "meshes out of view are not checked";
+  EXPECT_GT(run(scene, {}, {.threads = 2}).stats.emitted, 0u) << "meshes out of view are not checked";
 }
 
 TEST(FrontendKernels, RefusesInvalidThreadCounts) {
   for (const int threads : {0, -1, kMaxThreads + 1})
-    EXPECT_EQ(message_of([&] { run(random_triangles(), {.threads = threads}); }),
+    EXPECT_EQ(message_of([&] { run(random_triangles(), {}, {.threads = threads}); }),
               std::to_string(threads) + " threads are outside 1 to 256");
-  EXPECT_GT(run(random_triangles(), {.threads = kMaxThreads}).stats.emitted, 0u);
+  EXPECT_GT(run(random_triangles(), {}, {.threads = kMaxThreads}).stats.emitted, 0u);
 }
 
 // Compares each triangle's state with the statistics and with the ids of the emitted triangles.
@@ -485,9 +480,8 @@ void expect_states_agree(const Drawable& drawable, FrontendOptions options) {
   const auto plain = run(drawable, options);
   options.keep_states = true;
   for (const int threads : {1, 3}) {
-    options.threads = threads;
     Frontend frontend;
-    const auto triangles = frontend.run(drawable, options);
+    const auto triangles = frontend.run(drawable, options, {.threads = threads});
     expect_same_triangles(plain.triangles, {triangles.begin(), triangles.end()}, "with states");
     const FrontendStats& stats = frontend.stats();
     EXPECT_EQ(std::memcmp(&stats, &plain.stats, sizeof stats), 0);

@@ -1,5 +1,4 @@
 // The front end: culling, clipping, snapping and shading.
-#include "edgewise/frontend.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "edgewise/backend.h"
 #include "edgewise/builtin.h"
+#include "edgewise/draw.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
 #include "lab/measure.h"
@@ -48,8 +47,9 @@ const std::vector<glm::vec3> kFront = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}};
 const std::vector<glm::vec3> kBack = {{-1, -1, -3}, {1, -1, -3}, {-1, 1, -3}};
 
 testing::Emitted run(const Drawable& drawable,
-                     const FrontendOptions& options = {.width = 100, .height = 100, .cull = Cull::none}) {
-  return testing::run(drawable, options);
+                     const FrontendOptions& options = {.width = 100, .height = 100, .cull = Cull::none},
+                     const Execution& execution = {}) {
+  return testing::run(drawable, options, execution);
 }
 
 void expect_consistent(const FrontendStats& s) {
@@ -227,16 +227,17 @@ TEST(Frontend, IdsBeginAtTheFirstId) {
         for (const SimdTarget target : supported_targets())
           for (const int threads : {1, 3}) {
             FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .shade = shade};
-            options.threads = threads, options.keep_states = keep_states, options.target = target;
-            auto colours = run(drawable, options).triangles;
+            options.keep_states = keep_states;
+            const Execution execution{.threads = threads, .target = target};
+            auto colours = run(drawable, options, execution).triangles;
             options.first_id = kFirst;
-            testing::expect_same_triangles(colours, run(drawable, options).triangles, "colours");
+            testing::expect_same_triangles(colours, run(drawable, options, execution).triangles, "colours");
             options.payload = Payload::id, options.first_id = 0;
-            auto expected = run(drawable, options).triangles;
+            auto expected = run(drawable, options, execution).triangles;
             ASSERT_GT(expected.size(), 8u) << family.name;
             for (ScreenTriangle& t : expected) t.payload += kFirst;
             options.first_id = kFirst;
-            testing::expect_same_triangles(expected, run(drawable, options).triangles,
+            testing::expect_same_triangles(expected, run(drawable, options, execution).triangles,
                                            std::string(family.name));
           }
   }
@@ -250,7 +251,7 @@ TEST(Frontend, RefusesIdsBeyondTheLimit) {
   const auto draw_it = [&](const Drawable& drawable) {
     Frontend frontend;
     Framebuffer frame(100, 100);
-    draw(drawable, frontend, options, *find_backend("tiled").make(), frame.view(), 0, {});
+    draw(drawable, frontend, options, *find_backend("tiled").make(), frame.view());
     return frame.payload_row(60)[40];
   };
   EXPECT_EQ(draw_it(stream), options.first_id);

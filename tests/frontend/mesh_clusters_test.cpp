@@ -109,11 +109,10 @@ TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
                                       .height = 200,
                                       .cull = cull,
                                       .payload = keep ? Payload::id : Payload::colour,
-                                      .threads = keep ? 3 : 16,
                                       .keep_unsnapped = keep,
-                                      .keep_states = keep,
-                                      .target = target};
-        const auto e = expected.run(whole, options), g = given.run(scene, options);
+                                      .keep_states = keep};
+        const Execution execution{.threads = keep ? 3 : 16, .target = target};
+        const auto e = expected.run(whole, options, execution), g = given.run(scene, options, execution);
         ASSERT_EQ(e.size(), g.size());
         EXPECT_TRUE(e.empty() || std::memcmp(e.data(), g.data(), e.size_bytes()) == 0);
         EXPECT_GT(given.stats().whole_mesh, 0u);

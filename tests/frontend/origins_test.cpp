@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "edgewise/backend.h"
-#include "edgewise/frontend.h"
+#include "edgewise/draw.h"
 #include "edgewise/hash.h"
 #include "edgewise/obj_file.h"
 #include "frontend/scene_edits.h"
@@ -69,7 +68,7 @@ std::uint64_t picture(const Drawable& drawable, Payload payload = Payload::colou
   Frontend frontend;
   Framebuffer frame(kWidth, kHeight);
   draw(drawable, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none, .payload = payload},
-       *find_backend("tiled").make(), frame.view(), 9, {});
+       *find_backend("tiled").make(), frame.view(), {9});
   EXPECT_GT(frontend.stats().emitted, 0u);
   return hash_of(frame);
 }

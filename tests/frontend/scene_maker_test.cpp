@@ -62,9 +62,10 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
       scene->instances.push_back({.scale = {-1, 1, 1}, .angle = 1, .translation = {0, 0, -9}});
     for (const SimdTarget target : supported_targets())
       for (const int threads : {1, 2, 5}) {
-        const FrontendOptions options{
-            .width = 640, .height = 480, .payload = Payload::id, .threads = threads, .target = target};
-        const auto expected = testing::run(in_order, options), found = testing::run(given, options);
+        const FrontendOptions options{.width = 640, .height = 480, .payload = Payload::id};
+        const Execution execution{.threads = threads, .target = target};
+        const auto expected = testing::run(in_order, options, execution),
+                   found = testing::run(given, options, execution);
         EXPECT_GT(found.stats.emitted, count / 8);
         EXPECT_GT(found.stats.clipped, 0u);
         testing::expect_same_triangles(expected.triangles, found.triangles, name);
@@ -88,11 +89,10 @@ TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
     for (const bool keep : {false, true})
       for (const bool after_longer : {false, true}) {
         Frontend frontend;
-        FrontendOptions options{
-            .width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = threads};
-        ASSERT_TRUE(!after_longer || frontend.run(longer, options).empty());
+        FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id};
+        ASSERT_TRUE(!after_longer || frontend.run(longer, options, {.threads = threads}).empty());
         options.keep_unsnapped = keep;
-        const auto found = frontend.run(scene, options);
+        const auto found = frontend.run(scene, options, {.threads = threads});
         ASSERT_EQ(found.size(), kPieces * kCount);
         for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / kPieces);
         ASSERT_EQ(frontend.unsnapped().size(), keep ? found.size() : 0);

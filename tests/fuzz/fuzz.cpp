@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "edgewise/contract.h"
-#include "edgewise/frontend.h"
+#include "edgewise/draw.h"
 #include "frontend/mesh_clusters.h"
 #include "lab/measure.h"
 #include "lab/oracle.h"
@@ -82,7 +82,7 @@ Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int 
   if (triangles.size() * static_cast<std::size_t>(width * height) <= kOracleWork)
     lab::draw_oracle(triangles, frame, kBackground);
   else
-    backends()[0].make()->draw(triangles, frame.view(), kBackground, {1, 64, SimdTarget::scalar});
+    backends()[0].make()->draw(triangles, frame.view(), {kBackground}, {1, 64, SimdTarget::scalar});
   return frame;
 }
 
@@ -104,7 +104,7 @@ void check_pictures(const Framebuffer& expected, const Placement& p, lab::DrawOp
 
 auto draw_triangles(std::span<const ScreenTriangle> triangles) {
   return [triangles](Backend& backend, const FrameView& frame, const Execution& execution) {
-    backend.draw(triangles, frame, kBackground, execution);
+    backend.draw(triangles, frame, {kBackground}, execution);
   };
 }
 
@@ -130,9 +130,9 @@ void check_ranges(std::span<const ScreenTriangle> triangles) {
 
 // None if the front end rejects its input.
 std::optional<std::span<const ScreenTriangle>> run(Frontend& frontend, const Drawable& drawable,
-                                                   const FrontendOptions& options) {
+                                                   const FrontendOptions& options, SimdTarget target) {
   try {
-    return frontend.run(drawable, options);
+    return frontend.run(drawable, options, {.target = target});
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -151,13 +151,11 @@ void check_frontend(const Drawable& drawable, int width, int height) {
   options.shade = std::holds_alternative<Scene>(drawable);
   for (const Cull cull : {Cull::none, Cull::back}) {
     options.cull = cull;
-    options.target = SimdTarget::scalar;
-    const auto expected = run(scalar, drawable, options);
+    const auto expected = run(scalar, drawable, options, SimdTarget::scalar);
     for (const SimdTarget target : supported_targets())
       for (const bool clustered : {false, true}) {
         if (target == SimdTarget::scalar && !clustered) continue;  // that is `expected`
-        options.target = target;
-        const auto actual = run(vectors, clustered ? in_clusters : drawable, options);
+        const auto actual = run(vectors, clustered ? in_clusters : drawable, options, target);
         const std::string name = std::string(name_of(target)) + (clustered ? " with clusters" : "");
         require(expected.has_value() == actual.has_value(),
                 "only one of scalar and " + name + " rejects the input");
@@ -175,8 +173,7 @@ void check_frontend(const Drawable& drawable, int width, int height) {
     check_pictures(picture, placement, {}, "", draw_triangles(*expected));
     check_pictures(picture, placement, {}, "whole frame, ",
                    [&](Backend& backend, const FrameView& frame, const Execution& execution) {
-                     options.target = execution.target;
-                     draw(in_clusters, vectors, options, backend, frame, kBackground, execution);
+                     draw(in_clusters, vectors, options, backend, frame, {kBackground}, execution);
                    });
   }
 }

@@ -9,11 +9,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
 #include "edgewise/builtin.h"
+#include "edgewise/draw.h"
 #include "edgewise/edgewise.h"
-#include "edgewise/frontend.h"
 #include "edgewise/hash.h"
 #include "edgewise/visible.h"
 #include "float_modes.h"
@@ -85,24 +84,20 @@ Bits pictures_of(const Drawable& drawable, int threads) {
   Frontend frontend;
   for (const SimdTarget target : supported_targets())
     for (const BackendInfo& info : backends()) {
-      const FrontendOptions options{.width = kWidth,
-                                    .height = kHeight,
-                                    .cull = Cull::none,
-                                    .payload = Payload::id,
-                                    .threads = threads,
-                                    .target = target};
+      const FrontendOptions options{
+          .width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id};
       const auto backend = info.make();
       const Execution execution{.threads = threads, .target = target};
-      draw(drawable, frontend, options, *backend, frame.view(), 0u, execution);
+      draw(drawable, frontend, options, *backend, frame.view(), {0}, execution);
       found.push_back(hash_of(frame));
       FrontendOptions lit = options;
       lit.payload = Payload::colour, lit.keep_unsnapped = true;
-      backend->draw(frontend.run(drawable, lit), frame.view(), 0u, execution);
+      backend->draw(frontend.run(drawable, lit, execution), frame.view(), {0}, execution);
       found.push_back(hash_of(frame));
       found.push_back(bits(frontend.unsnapped()));
-      draw(drawable, frontend, options, *backend, frame.view(), 0u, execution);
+      draw(drawable, frontend, options, *backend, frame.view(), {0}, execution);
       std::vector<float> uv(2 * kWidth * kHeight), distance(kWidth * kHeight);
-      barycentrics(frame, drawable, options, {uv.data(), 2 * kWidth, distance.data(), kWidth});
+      barycentrics(frame, drawable, options, {uv.data(), 2 * kWidth, distance.data(), kWidth}, execution);
       found.push_back(bits(uv)), found.push_back(bits(distance));
     }
   if (const auto* const scene = std::get_if<Scene>(&drawable))

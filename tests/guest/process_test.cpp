@@ -20,11 +20,10 @@
 #include <thread>
 #include <vector>
 
-#include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
 #include "edgewise/builtin.h"
+#include "edgewise/draw.h"
 #include "edgewise/edgewise.h"
-#include "edgewise/frontend.h"
 #include "edgewise/hash.h"
 #include "float_modes.h"
 
@@ -42,10 +41,11 @@ class Guest {
  public:
   std::uint64_t draw(int threads) {
     const FrontendOptions options{
-        .width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id, .threads = threads};
-    edgewise::draw(drawable_, frontend_, options, *backend_, frame_.view(), 0u, {.threads = threads});
+        .width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id};
+    const Execution execution{.threads = threads};
+    edgewise::draw(drawable_, frontend_, options, *backend_, frame_.view(), {}, execution);
     std::vector<float> uv(2 * kWidth * kHeight);
-    barycentrics(frame_, drawable_, options, {uv.data(), 2 * kWidth});
+    barycentrics(frame_, drawable_, options, {uv.data(), 2 * kWidth}, execution);
     return hash_of(frame_);
   }
 

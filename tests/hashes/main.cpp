@@ -20,6 +20,7 @@
 
 #include "core/parallel.h"
 #include "edgewise/contract.h"
+#include "edgewise/draw.h"
 #include "edgewise/hash.h"
 #include "hashes/frames.h"
 #include "lab/measure.h"
@@ -133,7 +134,7 @@ class Painter {
   // Valid until the next call.
   std::span<const ScreenTriangle> triangles(const Frame& frame, const How& how) {
     if (!frame.drawable) return frame.triangles;
-    return frontend_.run(*frame.drawable, options(frame, how));
+    return frontend_.run(*frame.drawable, frame.frontend, execution_of(how));
   }
 
   lab::GuardedFrame draw(const Frame& frame, const How& how) {
@@ -141,22 +142,16 @@ class Painter {
         frame.width, frame.height,
         how.odd_layout ? lab::GuardedFrame::Layout{5, 3} : lab::GuardedFrame::aligned(frame.width));
     Backend& backend = backends_.get(*how.by.backend, {});
-    const Execution execution{how.by.threads, how.tile, how.by.target};
     if (how.whole_frame)
-      edgewise::draw(*frame.drawable, frontend_, options(frame, how), backend, drawn.view(), frame.background,
-                     execution);
+      edgewise::draw(*frame.drawable, frontend_, frame.frontend, backend, drawn.view(), {frame.background},
+                     execution_of(how));
     else
-      backend.draw(triangles(frame, how), drawn.view(), frame.background, execution);
+      backend.draw(triangles(frame, how), drawn.view(), {frame.background}, execution_of(how));
     return drawn;
   }
 
  private:
-  static FrontendOptions options(const Frame& frame, const How& how) {
-    FrontendOptions options = frame.frontend;
-    options.threads = how.by.threads;
-    options.target = how.by.target;
-    return options;
-  }
+  static Execution execution_of(const How& how) { return {how.by.threads, how.tile, how.by.target}; }
 
   Frontend frontend_;
   lab::BackendCache backends_;

@@ -50,7 +50,7 @@ TEST(Engine, DrawsTiledsPictureWhereItsNumbersHold) {
     for (const auto family : testing::kFamilies) {
       const auto triangles = exact_for(numbers, adversarial(family, 300, kWindow.width, kWindow.height, 17));
       Framebuffer expected(kWindow.width, kWindow.height);
-      tiled->draw(triangles, expected.view(), kBackground, {});
+      tiled->draw(triangles, expected.view(), {kBackground});
       for (const SimdTarget target : supported_targets())
         for (const int threads : {1, 3})
           for (const int tile_size : {16, 32, 64})

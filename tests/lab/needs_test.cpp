@@ -361,7 +361,7 @@ std::vector<std::uint32_t> library_picture(const Drawable& drawable, Size size) 
   Framebuffer frame(size.width, size.height);
   find_backend("tiled").make()->draw(
       frontend.run(drawable, {.width = size.width, .height = size.height, .payload = Payload::id}),
-      frame.view(), kNoTriangle, {});
+      frame.view(), {kNoTriangle});
   std::vector<std::uint32_t> ids;
   for (int y = 0; y < size.height; ++y)
     ids.insert(ids.end(), frame.payload_row(y), frame.payload_row(y) + size.width);

@@ -296,7 +296,7 @@ TEST(Portable, OursIsTheReferenceOfMeshes) {
     options.payload = Payload::id;
     Frontend frontend;
     Framebuffer ours(options.width, options.height);
-    backends().front().make()->draw(frontend.run(drawable, options), ours.view(), kNoTriangle, {});
+    backends().front().make()->draw(frontend.run(drawable, options), ours.view(), {kNoTriangle});
 
     std::vector<FloatTriangle> drawn;
     for (const PortableTriangle& t : triangles)

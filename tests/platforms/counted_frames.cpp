@@ -23,8 +23,7 @@ void draw_parts(const SceneInfo& scene, SimdTarget target) {
   const FrontendOptions options{.width = kWidth,
                                 .height = kHeight,
                                 .cull = scene.stream ? Cull::none : Cull::back,
-                                .shade = !scene.stream,
-                                .target = target};
+                                .shade = !scene.stream};
   const auto twice = [&](std::string_view part, auto&& draw_part) {
     const std::string line =
         std::string(scene.name) + " " + std::string(name_of(target)) + " " + std::string(part) + "\n";
@@ -35,11 +34,11 @@ void draw_parts(const SceneInfo& scene, SimdTarget target) {
   };
   Frontend frontend;
   Framebuffer frame(kWidth, kHeight);
-  twice("frontend", [&] { frontend.run(drawable, options); });
+  twice("frontend", [&] { frontend.run(drawable, options, {.target = target}); });
   const ScreenTriangles triangles = frontend.run(drawable, options);
   for (const std::string_view name : {"scanline", "tiled"}) {
     const auto backend = find_backend(name).make();
-    twice(name, [&] { backend->draw(triangles, frame.view(), 0, {.target = target}); });
+    twice(name, [&] { backend->draw(triangles, frame.view(), {0}, {.target = target}); });
   }
 }
 

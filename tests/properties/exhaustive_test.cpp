@@ -100,7 +100,7 @@ SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painte
     for (const Painter& painter : painters)
       for (const lab::DrawOptions& way : ways) {
         lab::poison(actual);
-        painter.with(way.tiles).draw(triangles, actual.view(), kBackground, way.execution);
+        painter.with(way.tiles).draw(triangles, actual.view(), {kBackground}, way.execution);
         result.comparisons += triangles.size();
         const auto difference = lab::compare(expected, actual);
         if (difference.pixels == 0) continue;

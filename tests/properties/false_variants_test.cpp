@@ -25,7 +25,7 @@ class Mistaken : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
     const FrameView& frame = part.frame;
-    right_->draw({}, frame, part.background, execution);
+    right_->draw({}, frame, {part.background}, execution);
     for (const ScreenTriangle& triangle : triangles) {
       const contract::Oriented t = contract::orient(triangle);
       if (t.area == 0) continue;

@@ -42,7 +42,7 @@ Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triang
                   const lab::DrawOptions& how) {
   Framebuffer frame(width, height);
   lab::poison(frame);
-  painter.with(how.tiles).draw(triangles, frame.view(), kBackground, how.execution);
+  painter.with(how.tiles).draw(triangles, frame.view(), {kBackground}, how.execution);
   return frame;
 }
 

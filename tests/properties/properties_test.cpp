@@ -103,15 +103,13 @@ TEST_F(Properties, VerticesOffTheGridAreSnappedHalfToEven) {
   Frontend frontend;
   check(float_streams(), 2'000, [&](const TriangleStream& stream) {
     Verdict verdict{.replay = {stream, on_grid(stream)}};
-    FrontendOptions options{stream.width, stream.height, Cull::none, false, Payload::id};
+    const FrontendOptions options{stream.width, stream.height, Cull::none, false, Payload::id};
     const auto triangles = snapped(stream, Payload::id);
     Framebuffer expected(stream.width, stream.height);
     lab::draw_oracle(triangles, expected, kBackground);
-    for (const SimdTarget target : supported_targets()) {
-      options.target = target;
-      compare_pictures(verdict, expected, painters_, frontend.run(stream, options), two_executions(),
-                       "front end, " + std::string(name_of(target)));
-    }
+    for (const SimdTarget target : supported_targets())
+      compare_pictures(verdict, expected, painters_, frontend.run(stream, options, {.target = target}),
+                       two_executions(), "front end, " + std::string(name_of(target)));
     return verdict;
   });
 }

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "edgewise/backend.h"
 #include "edgewise/builtin.h"
+#include "edgewise/draw.h"
 #include "edgewise/visible.h"
 #include "frontend/clip.h"
 #include "frontend/transform.h"
@@ -39,16 +39,15 @@ struct Shown {
   Shown(const Drawable& d, const FrontendOptions& o) : drawable(d), options(o), ids(o.width, o.height) {
     options.payload = Payload::id;
     Frontend frontend;
-    draw(drawable, frontend, options, *find_backend("naive").make(), ids.view(), 0, {});  // an id too
+    draw(drawable, frontend, options, *find_backend("naive").make(), ids.view());  // an id too
   }
 
   Planes planes(int threads = 1, SimdTarget target = SimdTarget::best) const {
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     Planes planes{std::vector<float>(2 * pixels, -1.0f), std::vector<float>(pixels, -1.0f)};
-    FrontendOptions with = options;
-    with.threads = threads, with.target = target;
-    barycentrics(ids, drawable, with,
-                 {planes.uv.data(), 2 * options.width, planes.distance.data(), options.width});
+    barycentrics(ids, drawable, options,
+                 {planes.uv.data(), 2 * options.width, planes.distance.data(), options.width},
+                 {.threads = threads, .target = target});
     return planes;
   }
   bool has(int x, int y) const { return ids.depth_row(y)[x] != contract::kDepthClear; }
@@ -526,11 +525,12 @@ TEST(Barycentrics, RejectsWhatDoesNotFit) {
     Drawable drawable;
     FrontendOptions options;
     BarycentricsView out;
+    Execution execution = {};
   };
   const auto message = [&](auto&& change) {
     Call call{shown.ids, shown.drawable, shown.options, {uv.data(), 80, distance.data(), 40}};
     change(call);
-    return message_of([&] { barycentrics(call.ids, call.drawable, call.options, call.out); });
+    return message_of([&] { barycentrics(call.ids, call.drawable, call.options, call.out, call.execution); });
   };
   const auto scene = [](Call& call) -> Scene& { return std::get<Scene>(call.drawable); };
   EXPECT_EQ(message([](Call& c) { c.options.width = 41; }),
@@ -538,7 +538,7 @@ TEST(Barycentrics, RejectsWhatDoesNotFit) {
   EXPECT_EQ(message([](Call& c) { c.options.payload = Payload::colour; }),
             "barycentric coordinates need a frame of ids: Payload::id");
   for (const int threads : {0, 257})
-    EXPECT_EQ(message([&](Call& c) { c.options.threads = threads; }),
+    EXPECT_EQ(message([&](Call& c) { c.execution.threads = threads; }),
               std::to_string(threads) + " threads are outside 1 to 256");
   EXPECT_EQ(message([](Call& c) { c.ids.depth = nullptr; }),
             "frame of 40 x 30 px, stride 48, cannot be read");
@@ -565,7 +565,7 @@ TEST(Barycentrics, RejectsWhatDoesNotFit) {
   });
   for (const int threads : {1, 3}) {
     const auto on_threads = [&](auto&& change) {
-      return message([&](Call& c) { c.options.threads = threads, change(c); });
+      return message([&](Call& c) { c.execution.threads = threads, change(c); });
     };
     constexpr const char* kElsewhere = " has id 0, of a triangle that does not cover it";
     EXPECT_EQ(on_threads([&](Call& c) { scene(c).camera.yaw = 2.0f; }), "pixel " + first + kElsewhere);

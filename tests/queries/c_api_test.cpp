@@ -11,11 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "edgewise/backend.h"
 #include "edgewise/barycentrics.h"
 #include "edgewise/contract.h"
+#include "edgewise/draw.h"
 #include "edgewise/edgewise.h"
-#include "edgewise/frontend.h"
 #include "edgewise/hash.h"
 #include "edgewise/visible.h"
 
@@ -122,7 +121,7 @@ TEST(CInterface, DrawsTheSamePictures) {
     Planes actual, expected;
     EXPECT_EQ(edgewise_draw(renderer.c, both.c, &options, actual.c()), EDGEWISE_OK) << edgewise_error();
     Frontend frontend;
-    draw(both.scene, frontend, o, *find_backend("naive").make(), expected.view(), pass, {});
+    draw(both.scene, frontend, o, *find_backend("naive").make(), expected.view(), pass);
     EXPECT_EQ(actual, expected) << trial;
     std::uint64_t hash = 0;
     EXPECT_EQ(edgewise_hash(actual.c(), &hash), EDGEWISE_OK);
@@ -140,7 +139,7 @@ TEST(CInterface, DrawsStreamsAndFramedScenes) {
     Planes actual, expected;
     EXPECT_EQ(edgewise_draw(renderer.c, c, nullptr, actual.c()), EDGEWISE_OK) << edgewise_error();
     draw(drawable, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
-         *find_backend("naive").make(), expected.view(), 0xFF000000u, {});
+         *find_backend("naive").make(), expected.view(), {0xFF000000});
     EXPECT_EQ(actual, expected);
     edgewise_frame depth_only = actual.c();
     depth_only.payload = nullptr;
@@ -178,7 +177,7 @@ TEST(CInterface, KeepsPositionsInDouble) {
     EXPECT_EQ(edgewise_draw(Renderer("tiled").c, both.c, nullptr, actual.c()), EDGEWISE_OK);
     Frontend frontend;
     draw(both.scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
-         *find_backend("naive").make(), expected.view(), 0xFF000000, {});
+         *find_backend("naive").make(), expected.view(), {0xFF000000});
     EXPECT_EQ(actual, expected);
     EXPECT_EQ(frontend.stats().emitted, 1u);
     points[1] += glm::dvec4(0.01, 0.002, 0, 0);
@@ -299,7 +298,7 @@ TEST(CInterface, DrawsThatAddUpEqualOneIdsIncluded) {
   EXPECT_EQ(edgewise_draw(renderer.c, rest.c, &options, actual.c()), EDGEWISE_OK);
   Frontend frontend;
   const FrontendOptions o{.width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id};
-  draw(expected_scene, frontend, o, *find_backend("naive").make(), expected.view(), 0xFF000000, {});
+  draw(expected_scene, frontend, o, *find_backend("naive").make(), expected.view(), {0xFF000000});
   EXPECT_EQ(actual, expected);
   EXPECT_GE(visible_triangles(actual.view()).back(), 6u);
   options.first_id = 1u << 30;
@@ -316,7 +315,7 @@ TEST(CInterface, ChangesAScene) {
     EXPECT_EQ(edgewise_draw(renderer.c, both.c, nullptr, actual.c()), EDGEWISE_OK) << edgewise_error();
     Frontend frontend;
     draw(both.scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
-         *find_backend("naive").make(), expected.view(), 0xFF000000, {});
+         *find_backend("naive").make(), expected.view(), {0xFF000000});
     EXPECT_EQ(actual, expected);
     return expected;
   };
@@ -368,7 +367,7 @@ TEST(CInterface, MovesALargeMeshIntoView) {
   EXPECT_EQ(edgewise_draw(renderer.c, c, nullptr, actual.c()), EDGEWISE_OK);
   Frontend frontend;
   draw(scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
-       *find_backend("naive").make(), expected.view(), 0xFF000000, {});
+       *find_backend("naive").make(), expected.view(), {0xFF000000});
   EXPECT_EQ(actual, expected);
   EXPECT_NE(std::count(actual.payload.begin(), actual.payload.end(), 0xFF000000), kWidth * kHeight);
   edgewise_free_scene(c);

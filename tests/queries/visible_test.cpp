@@ -1,5 +1,6 @@
 // What a frame shows, against naive counts, and queries of boxes, against drawing what lies in them.
 #include "edgewise/visible.h"
+#include "edgewise/draw.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,6 @@
 #include <variant>
 #include <vector>
 
-#include "edgewise/backend.h"
 #include "lab/random_cases.h"
 #include "message_of.h"
 #include "support.h"
@@ -26,7 +26,7 @@ Framebuffer ids_of(const Drawable& drawable, int width, int height, Cull cull = 
   Framebuffer frame(width, height);
   Frontend frontend;
   draw(drawable, frontend, {.width = width, .height = height, .cull = cull, .payload = Payload::id},
-       *find_backend("naive").make(), frame.view(), 0, {});  // a background that is an id too
+       *find_backend("naive").make(), frame.view());  // a background that is an id too
   return frame;
 }
 

@@ -1,9 +1,11 @@
 // Compares every backend in the registry, in every configuration, with the brute-force oracle.
 #include <stdexcept>
+#include <vector>
 
+#include "core/parallel.h"
 #include "core/triangle_source.h"
 #include "edgewise/builtin.h"
-#include "edgewise/frontend.h"
+#include "edgewise/draw.h"
 #include "every_backend.h"
 #include "lab/measure.h"
 #include "message_of.h"
@@ -67,7 +69,7 @@ TEST_P(EveryBackend, KeepsNothingOfThePreviousFrame) {
   for (const auto& how : testing::executions())
     for (const std::size_t i : {0u, 1u, 2u, 3u, 1u, 0u, 3u, 2u, 0u}) {
       Framebuffer actual(width, height);
-      backends_.get(info_, how.tiles).draw(frames[i], actual.view(), kBackground, how.execution);
+      backends_.get(info_, how.tiles).draw(frames[i], actual.view(), {kBackground}, how.execution);
       testing::expect_same(expected[i], actual, std::to_string(i) + ", " + testing::describe(how));
     }
 }
@@ -138,7 +140,7 @@ TEST_P(EveryBackend, DrawsManyTrianglesTheSameOnEveryThreadCount) {
     Framebuffer frame(side, side);
     Execution execution;
     execution.threads = threads;
-    backend_->draw(triangles, frame.view(), kBackground, execution);
+    backend_->draw(triangles, frame.view(), {kBackground}, execution);
     return frame;
   };
   const Framebuffer alone = drawn(1);
@@ -160,7 +162,7 @@ TEST_P(EveryBackend, WritesEveryPixelOfTheFrameAndNoOther) {
       const std::ptrdiff_t start = stride + offset;
       backends_.get(info_, how.tiles)
           .draw(triangles, {depth.data() + start, payload.data() + start, kWidth, kHeight, stride},
-                kBackground, how.execution);
+                {kBackground}, how.execution);
       for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(size); ++i) {
         const std::ptrdiff_t x = (i - start) % stride, y = (i - start) / stride;
         const bool in_frame = i >= start && x < kWidth && y < kHeight;
@@ -176,7 +178,7 @@ TEST_P(EveryBackend, WritesEveryPixelOfTheFrameAndNoOther) {
 
 TEST_P(EveryBackend, RefusesInvalidArguments) {
   Framebuffer frame(8, 8);
-  const auto draw = [&](FrameView view, Execution execution) { backend_->draw({}, view, 0, execution); };
+  const auto draw = [&](FrameView view, Execution execution) { backend_->draw({}, view, {0}, execution); };
   const FrameView good = frame.view();
   const auto with = [&](auto change) {
     FrameView view = good;
@@ -198,7 +200,7 @@ TEST_P(EveryBackend, RefusesAFrameOfAnotherSize) {
   const auto draw = [&](int width, int height) {
     Framebuffer frame(width, height);
     const ScreenTriangles triangles = frontend.run(TriangleStream{}, {.width = 80, .height = 60});
-    backend_->draw(triangles, frame.view(), 0, {});
+    backend_->draw(triangles, frame.view());
   };
   EXPECT_NO_THROW(draw(80, 60));
   EXPECT_EQ(message_of([&] { draw(81, 60); }),
@@ -247,19 +249,17 @@ TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
   for (const Drawable& drawable : drawables)
     for (std::size_t draws = first++; const auto& how : testing::executions()) {
       const Way& way = ways[draws++ % std::size(ways)];
-      FrontendOptions options{.width = 150,
-                              .height = 90,
-                              .cull = how.execution.threads == 2 ? Cull::back : Cull::none,
-                              .threads = 2};
+      const FrontendOptions options{
+          .width = 150, .height = 90, .cull = how.execution.threads == 2 ? Cull::back : Cull::none};
       Framebuffer expected(150, 90), actual(150, 90);
       const auto view = [&](Framebuffer& frame) {
         lab::poison(frame);
         FrameView prepared = frame.view();
         if (way.depth_only) prepared.payload = nullptr;
-        if (!way.pass.clear) backend_->draw(before, prepared, kBackground, how.execution);
+        if (!way.pass.clear) backend_->draw(before, prepared, {kBackground}, how.execution);
         return prepared;
       };
-      backend_->draw(plain.run(drawable, options), view(expected), way.pass, how.execution);
+      backend_->draw(plain.run(drawable, options, {.threads = 2}), view(expected), way.pass, how.execution);
       draw(drawable, frontend, options, *backend_, view(actual), way.pass, how.execution);
       const std::string what = std::to_string(&drawable - drawables) + ", " + testing::describe(how);
       testing::expect_same(expected, actual, what);
@@ -267,14 +267,41 @@ TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
     }
 }
 
+TEST(Draw, MakesAScenesTrianglesOnTheThreadsOfTheExecution) {
+  static const detail::ParallelFor library = detail::parallel_for;
+  static std::vector<int> used;  // the number of threads of each call
+  const auto threads_of = [](auto&& calls) {
+    used.clear();
+    calls();
+    return used;
+  };
+  const Drawable scene = find_scene("torus-knot").make({});
+  const FrontendOptions options{.width = 150, .height = 90};
+  const auto backend = find_backend("naive").make();
+  Frontend frontend;
+  Framebuffer frame(150, 90);
+  detail::parallel_for = [](int threads, int count, void (*call)(void*, int), void* context) {
+    used.push_back(threads);
+    library(threads, count, call, context);
+  };
+  const auto making = threads_of([&] { frontend.run(scene, options, {.threads = 3}); });
+  const auto two_calls = threads_of(
+      [&] { backend->draw(frontend.run(scene, options, {.threads = 3}), frame.view(), {}, {.threads = 3}); });
+  const auto one_call =
+      threads_of([&] { draw(scene, frontend, options, *backend, frame.view(), {}, {.threads = 3}); });
+  detail::parallel_for = library;
+  EXPECT_EQ(making, std::vector{3});
+  EXPECT_EQ(one_call, two_calls);
+}
+
 // Large enough that inputs are sampled before they are made.
 TEST(StreamSource, CountsEachInputOnce) {
   const Drawable stream = random_stream({.width = 64, .height = 64}, 400'000, 2, 0, 3);
-  const FrontendOptions options{.width = 64, .height = 64, .threads = 2};
+  const FrontendOptions options{.width = 64, .height = 64};
   Frontend plain, frontend;
   Framebuffer frame(64, 64);
   plain.run(stream, options);
-  draw(stream, frontend, options, *find_backend("tiled").make(), frame.view(), 0, Execution{.threads = 2});
+  draw(stream, frontend, options, *find_backend("tiled").make(), frame.view(), {}, {.threads = 2});
   EXPECT_TRUE(frontend.stats() == plain.stats());
 }
 
@@ -292,10 +319,9 @@ TEST(StreamSource, MayBeUsedAgainAfterAnException) {
   Framebuffer frame(150, 90);
   plain.run(stream, options);
   Throws throws;
-  EXPECT_EQ(message_of([&] { draw(stream, frontend, options, throws, frame.view(), 0, Execution{}); }),
-            "too much");
+  EXPECT_EQ(message_of([&] { draw(stream, frontend, options, throws, frame.view()); }), "too much");
   EXPECT_TRUE(frontend.stats() == plain.stats()) << "counts of what was made";
-  draw(stream, frontend, options, *find_backend("tiled").make(), frame.view(), 0, Execution{});
+  draw(stream, frontend, options, *find_backend("tiled").make(), frame.view());
   EXPECT_TRUE(frontend.stats() == plain.stats());
 }
 
@@ -304,11 +330,10 @@ TEST_P(EveryBackend, RefusesADrawableForAnotherSizeOrWithInvalidOptions) {
   Frontend frontend;
   Framebuffer frame(150, 90);
   const auto draw_with = [&](const FrontendOptions& options, const Execution& execution) {
-    draw(stream, frontend, options, *backend_, frame.view(), kBackground, execution);
+    draw(stream, frontend, options, *backend_, frame.view(), {kBackground}, execution);
   };
   EXPECT_EQ(message_of([&] { draw_with({.width = 151, .height = 90}, {}); }),
             "a drawable with options for 151 x 90 px cannot be drawn into a frame of 150 x 90 px");
-  EXPECT_THROW(draw_with({.width = 150, .height = 90, .threads = 0}, {}), std::invalid_argument);
   EXPECT_THROW(draw_with({.width = 150, .height = 90}, {.threads = 0}), std::invalid_argument);
   EXPECT_THROW(draw_with({.width = 150, .height = 90}, {.tile_size = 17}), std::invalid_argument);
   draw_with({.width = 150, .height = 90, .keep_states = true}, {});

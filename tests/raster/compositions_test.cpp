@@ -4,7 +4,7 @@
 #include <set>
 
 #include "edgewise/builtin.h"
-#include "edgewise/frontend.h"
+#include "edgewise/draw.h"
 #include "lab/hard_triangles.h"
 #include "lab/measure.h"
 #include "message_of.h"
@@ -37,10 +37,10 @@ TEST(Compositions, DrawTheSamePicturesOfAllScenes) {
     Framebuffer expected(kWidth, kHeight), found(kWidth, kHeight);
     const FrontendOptions options{.width = kWidth, .height = kHeight};
     Frontend frontend;
-    naive->draw(frontend.run(drawable, options), expected.view(), kBackground, {});
+    naive->draw(frontend.run(drawable, options), expected.view(), {kBackground});
     for_each_composition([&](Backend& backend, const Execution& execution, const std::string& what) {
       lab::poison(found);
-      draw(drawable, frontend, options, backend, found.view(), kBackground, execution);
+      draw(drawable, frontend, options, backend, found.view(), {kBackground}, execution);
       expect_same(expected, found, std::string(scene.name) + ", " + what);
     });
   }
@@ -52,10 +52,10 @@ TEST(Compositions, DrawTheSamePicturesOfHardTriangles) {
     for (const auto family : testing::kFamilies) {
       const auto triangles = testing::adversarial(family, 300, width, height, 7);
       Framebuffer expected(width, height), found(width, height);
-      naive->draw(triangles, expected.view(), kBackground, {});
+      naive->draw(triangles, expected.view(), {kBackground});
       for_each_composition([&](Backend& backend, const Execution& execution, const std::string& what) {
         lab::poison(found);
-        backend.draw(triangles, found.view(), kBackground, execution);
+        backend.draw(triangles, found.view(), {kBackground}, execution);
         expect_same(expected, found, std::string(family) + ", " + what);
       });
     }
@@ -75,7 +75,7 @@ TEST(Compositions, DrawTheSamePicturesInTheSameRenderPasses) {
           lab::poison(frame);
           FrameView view = frame.view();
           if (depth_only) view.payload = nullptr;
-          backend.draw(first, view, kBackground, execution);
+          backend.draw(first, view, {kBackground}, execution);
           backend.draw(rest, view, {.clear = false, .scissor = scissor}, execution);
           backend.draw(first, view, {.background = 1, .scissor = {50, 9, scissor.width, 7}}, execution);
         };

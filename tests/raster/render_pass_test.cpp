@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "edgewise/draw.h"
 #include "edgewise/visible.h"
 #include "every_backend.h"
 #include "lab/guarded_frame.h"
@@ -84,7 +85,7 @@ FrameView without_payload(FrameView view) {
 // One draw of a whole frame.
 Framebuffer whole(Backend& backend, std::span<const ScreenTriangle> triangles, int width, int height) {
   Framebuffer frame(width, height);
-  backend.draw(triangles, frame.view(), kBackground, {});
+  backend.draw(triangles, frame.view(), {kBackground});
   return frame;
 }
 
@@ -101,7 +102,7 @@ TEST_P(EveryBackend, TwoDrawsEqualOneOfBoth) {
       for (const auto& how : testing::executions()) {
         frame.poison();
         Backend& backend = backends_.get(info_, how.tiles);
-        backend.draw(first, frame.view(), kBackground, how.execution);
+        backend.draw(first, frame.view(), {kBackground}, how.execution);
         backend.draw(rest, frame.view(), {.background = kUnseen, .clear = false}, how.execution);
         expect_drawn(expected, frame,
                      std::string(family) + ", " + std::to_string(cut) + " first, " + testing::describe(how));
@@ -117,7 +118,7 @@ TEST_P(EveryBackend, DrawsOfOneTriangleEachEqualOneOfAll) {
     for (const auto& how : testing::executions()) {
       Framebuffer frame(kWidth, kHeight);
       Backend& backend = backends_.get(info_, how.tiles);
-      backend.draw({}, frame.view(), kBackground, how.execution);
+      backend.draw({}, frame.view(), {kBackground}, how.execution);
       for (const ScreenTriangle& triangle : triangles)
         backend.draw({&triangle, 1}, frame.view(), {.clear = false}, how.execution);
       testing::expect_same(expected, frame, std::string(family) + ", " + testing::describe(how));
@@ -153,12 +154,12 @@ TEST_P(EveryBackend, TwoDrawsOfDrawablesEqualOneOfBothIdsIncluded) {
     if constexpr (std::is_same_v<T, Scene>) second.camera = first.camera;
     FrontendOptions options{.width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id};
     Framebuffer expected(kWidth, kHeight), frame(kWidth, kHeight);
-    draw(joined(first, second), frontend, options, *backend_, expected.view(), kBackground, {});
+    draw(joined(first, second), frontend, options, *backend_, expected.view(), {kBackground});
     for (const auto& how : testing::executions()) {
       lab::poison(frame);
       Backend& backend = backends_.get(info_, how.tiles);
       options.first_id = 0;
-      draw(first, frontend, options, backend, frame.view(), kBackground, how.execution);
+      draw(first, frontend, options, backend, frame.view(), {kBackground}, how.execution);
       options.first_id = static_cast<std::uint32_t>(triangles_of(first));
       draw(second, frontend, options, backend, frame.view(), RenderPass{.clear = false}, how.execution);
       testing::expect_same(expected, frame, what + ", " + testing::describe(how));
@@ -182,7 +183,7 @@ TEST_P(EveryBackend, TwoDrawsOfManyTrianglesEqualOneOfBoth) {
   for (const auto& how : testing::executions()) {
     Framebuffer frame(kWidth, kHeight);
     Backend& backend = backends_.get(info_, how.tiles);
-    backend.draw(std::span(triangles).first(5'000), frame.view(), kBackground, how.execution);
+    backend.draw(std::span(triangles).first(5'000), frame.view(), {kBackground}, how.execution);
     backend.draw(std::span(triangles).subspan(5'000), frame.view(), {.clear = false}, how.execution);
     testing::expect_same(expected, frame, testing::describe(how));
   }
@@ -243,7 +244,7 @@ TEST_P(EveryBackend, AScissorCropsThePicture) {
     for (const auto& how : testing::executions()) {
       Backend& backend = backends_.get(info_, how.tiles);
       const auto draw_after = [&](FrameView view, const RenderPass& pass) {
-        backend.draw(first, view, kBackground, how.execution);
+        backend.draw(first, view, {kBackground}, how.execution);
         backend.draw(rest, view, pass, how.execution);
       };
       const std::string what = where + testing::describe(how);
@@ -269,7 +270,7 @@ TEST_P(EveryBackend, DepthAloneIsThatOfTheWholePicture) {
       for (const auto& how : testing::executions()) {
         frame.poison();
         backends_.get(info_, how.tiles)
-            .draw(triangles, without_payload(frame.view()), kBackground, how.execution);
+            .draw(triangles, without_payload(frame.view()), {kBackground}, how.execution);
         expect_drawn(expected, frame, std::string(family) + ", " + testing::describe(how));
       }
     }
@@ -278,7 +279,7 @@ TEST_P(EveryBackend, DepthAloneIsThatOfTheWholePicture) {
 TEST_P(EveryBackend, RefusesAScissorOfNegativeSize) {
   GuardedFrame frame = frame_of(8, 8, true);
   const auto draw_in = [&](const PixelRect& scissor) {
-    backend_->draw({}, frame.view(), {.scissor = scissor}, {});
+    backend_->draw({}, frame.view(), {.scissor = scissor});
   };
   EXPECT_EQ(message_of([&] { draw_in({0, 0, -1, 8}); }), "scissor of -1 x 8 px has a negative side");
   EXPECT_THROW(draw_in({0, 0, 8, -1}), std::invalid_argument);

@@ -185,7 +185,7 @@ TEST(TileStore, FillsEveryEmptyTile) {
   for (const TileStore store : {TileStore::cached, TileStore::streaming})
     for (const int width : {333, 320}) {
       Framebuffer expected(width, 200), frame(width, 200);
-      backends().front().make()->draw(triangles, expected.view(), 42, {});
+      backends().front().make()->draw(triangles, expected.view(), {42});
       lab::poison(frame);
       TileScratch scratch;
       StoredTriangles stored(triangles);
@@ -224,7 +224,7 @@ TEST(LightTiles, AreDrawnLikeOthers) {
       const int right = 5 * size * contract::kSub, side = size * contract::kSub;
       triangles.push_back({{0, right, 0}, {side, side, 3 * side}, {0, 5000, 1 << 21}, 99});
       Framebuffer expected(width, height), frame(width, height);
-      backends().front().make()->draw(triangles, expected.view(), 42, {});
+      backends().front().make()->draw(triangles, expected.view(), {42});
       for (const SimdTarget target : supported_targets())
         for (const int threads : {1, 2, 8}) {
           lab::poison(frame);
@@ -272,7 +272,7 @@ TEST(LightTiles, CountTheTrianglesOfAllSlices) {
       triangles[static_cast<std::size_t>(i == 0 ? 0 : 1000 + 400 * i)] = {
           {0, kSide, 0}, {0, 0, kSide}, {5, 5, 5}, static_cast<std::uint32_t>(i)};
     Framebuffer expected(3 * kSize, kSize), frame(3 * kSize, kSize);
-    backends().front().make()->draw(triangles, expected.view(), 42, {});
+    backends().front().make()->draw(triangles, expected.view(), {42});
     lab::poison(frame);
     TileScratch scratch;
     StoredTriangles stored(triangles);

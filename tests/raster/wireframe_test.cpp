@@ -31,7 +31,7 @@ class Wireframe : public ::testing::Test {
 
   Pixels drawn(std::span<const ScreenTriangle> triangles, int width = kWidth, int height = kHeight) {
     Framebuffer frame(width, height);
-    backend_->draw(triangles, frame.view(), kNothing, {});
+    backend_->draw(triangles, frame.view(), {kNothing});
     Pixels pixels;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)

@@ -254,7 +254,7 @@ class Installed(unittest.TestCase):
         run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
         run("cmake", "--install", build, "--prefix", prefix)
         for name in ("edgewise", "edgewise_files"):
-            self.assertIn(f"Library soname: [lib{name}.so.0.2]",
+            self.assertIn(f"Library soname: [lib{name}.so.0.3]",
                           run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
             self.check_exports(next(prefix.rglob(f"lib{name}.so")), whole=name == "edgewise")
         self.use_package(prefix, "shared-package")

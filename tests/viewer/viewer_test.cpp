@@ -27,7 +27,7 @@ Image rendered(std::string_view scene, Cull cull, tools::Size size = kTestSize,
   options.cull = cull;
   Framebuffer frame(size.width, size.height);
   backend.make()->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options), frame.view(),
-                       rgb(0, 0, 0), {});
+                       {rgb(0, 0, 0)});
   return to_image(frame);
 }
 

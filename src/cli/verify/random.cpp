@@ -14,6 +14,7 @@
 #include "core/atomic_file.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
+#include "edgewise/draw.h"
 #include "edgewise/tri_file.h"
 #include "frontend/mesh_clusters.h"
 #include "lab/measure.h"
@@ -121,9 +122,8 @@ class Checker {
   std::span<const ScreenTriangle> triangles_of(const Case& c) {
     if (!c.drawable) return c.triangles;
     FrontendOptions options = c.frontend;
-    options.target = SimdTarget::scalar;
     options.keep_unsnapped = true;  // uses that path, which keeps triangles without area
-    const auto plain = plain_.run(*c.drawable, options);
+    const auto plain = plain_.run(*c.drawable, options, {.target = SimdTarget::scalar});
     expected_list_.assign(plain.begin(), plain.end());
     std::erase_if(expected_list_, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
     return expected_list_;
@@ -159,10 +159,7 @@ class Checker {
 
   // What differs from expected_list_, in words; empty if nothing does.
   std::string list_difference(const Case& c, const Probe& probe) {
-    FrontendOptions options = c.frontend;
-    options.threads = probe.how.execution.threads;
-    options.target = probe.how.execution.target;
-    const auto found = plan_.frontend(candidate_, *c.drawable, options);
+    const auto found = plan_.frontend(candidate_, *c.drawable, c.frontend, probe.how.execution);
     const auto at = std::mismatch(
         expected_list_.begin(), expected_list_.end(), found.begin(), found.end(),
         [](const ScreenTriangle& a, const ScreenTriangle& b) { return std::memcmp(&a, &b, sizeof a) == 0; });
@@ -175,16 +172,13 @@ class Checker {
                                const Framebuffer& expected) {
     lab::GuardedFrame frame(c.width, c.height, probe.layout);
     Backend& backend = backends_.get(plan_.backends[probe.backend], probe.how.tiles);
-    if (probe.output == Output::whole_frame) {
-      FrontendOptions options = c.frontend;
-      options.threads = probe.how.execution.threads;
-      options.target = probe.how.execution.target;
-      draw(*c.drawable, candidate_, options, backend, frame.view(), c.background, probe.how.execution);
-    } else if (probe.output == Output::frame_in_parts) {
+    const Execution& execution = probe.how.execution;
+    if (probe.output == Output::whole_frame)
+      draw(*c.drawable, candidate_, c.frontend, backend, frame.view(), {c.background}, execution);
+    else if (probe.output == Output::frame_in_parts)
       draw_in_parts(backend, triangles, frame.view(), c.background, probe);
-    } else {
-      backend.draw(triangles, frame.view(), c.background, probe.how.execution);
-    }
+    else
+      backend.draw(triangles, frame.view(), {c.background}, execution);
     const lab::FrameDifference found = lab::compare(expected, frame);
     if (!found.any()) return {};
     const int x = found.first_x, y = found.first_y;
@@ -201,7 +195,7 @@ class Checker {
   Framebuffer reference_frame(const Case& c, std::span<const ScreenTriangle> triangles) {
     Framebuffer frame(c.width, c.height);
     lab::poison(frame);
-    backends_.get(plan_.backends[0], {}).draw(triangles, frame.view(), c.background, kReferenceExecution);
+    backends_.get(plan_.backends[0], {}).draw(triangles, frame.view(), {c.background}, kReferenceExecution);
     return frame;
   }
 

@@ -40,9 +40,9 @@ struct Plan {
   // checks the reference itself.
   std::vector<BackendInfo> backends;
   // The front end's reference is its path for single triangles, without SIMD and threads.
-  std::function<std::span<const ScreenTriangle>(Frontend&, const Drawable&, const FrontendOptions&)>
-      frontend =
-          [](Frontend& f, const Drawable& drawable, const FrontendOptions& o) { return f.run(drawable, o); };
+  std::function<std::span<const ScreenTriangle>(Frontend&, const Drawable&, const FrontendOptions&,
+                                                const Execution&)>
+      frontend = &Frontend::run;
   std::uint64_t seed = 1;
   Shard shard;
   std::uint64_t cases = std::numeric_limits<std::uint64_t>::max();  // the most

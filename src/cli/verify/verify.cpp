@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/atomic_file.h"
+#include "edgewise/draw.h"
 #include "edgewise/tri_file.h"
 #include "image/pictures.h"
 #include "lab/oracle.h"
@@ -118,7 +119,7 @@ class SceneCheck {
         const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
         if (payload == Payload::colour) count(frontend_.stats());
         lab::poison(expected);
-        backends_.front()->draw(triangles, expected.view(), background_of(payload), kReferenceExecution);
+        backends_.front()->draw(triangles, expected.view(), {background_of(payload)}, kReferenceExecution);
         compare_all({plan_.backends.front().name, shot, triangles, expected});
         if (cull == Cull::none && payload == Payload::id && covers_each_pixel_once(shot.source))
           check_hits(triangles, width, height);
@@ -187,14 +188,11 @@ class SceneCheck {
     if (how.tiles != TileOptions{}) made = lab::make(plan_.backends[backend], how.tiles);
     Backend& drawer = made ? *made : *backends_[backend];
     const std::uint32_t background = background_of(j.shot.frontend.payload);
-    if (configuration.whole_frame) {
-      FrontendOptions frontend = j.shot.frontend;
-      frontend.target = how.execution.target;
-      edgewise::draw(j.shot.source.drawable, whole_frames_, frontend, drawer, candidate_->view(), background,
-                     how.execution);
-    } else {
-      drawer.draw(j.triangles, candidate_->view(), background, how.execution);
-    }
+    if (configuration.whole_frame)
+      edgewise::draw(j.shot.source.drawable, whole_frames_, j.shot.frontend, drawer, candidate_->view(),
+                     {background}, how.execution);
+    else
+      drawer.draw(j.triangles, candidate_->view(), {background}, how.execution);
   }
 
   void keep(const Judgement& j, std::size_t backend, const Configuration& configuration,

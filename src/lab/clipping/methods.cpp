@@ -99,7 +99,7 @@ const std::array<ClippingMethod, 8> kMethods{{
        options.height = scene.size.height;
        options.cull = scene.cull_back ? Cull::back : Cull::none;
        options.payload = Payload::id;
-       frame.backend->draw(frame.frontend.run(scene.scene, options), frame.picture.view(), kNoTriangle, {});
+       frame.backend->draw(frame.frontend.run(scene.scene, options), frame.picture.view(), {kNoTriangle});
      },
      0,
      kDoubleReachPx},

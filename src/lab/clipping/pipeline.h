@@ -126,7 +126,7 @@ void draw_transformed(const ClippingScene& scene, ClippingFrame& frame, Transfor
     const glm::uvec3 t = mesh.triangles[i];
     per_triangle({frame.vertices[t.x], frame.vertices[t.y], frame.vertices[t.z]}, i);
   }
-  frame.backend->draw(frame.triangles, frame.picture.view(), kNoTriangle, {});
+  frame.backend->draw(frame.triangles, frame.picture.view(), {kNoTriangle});
 }
 
 template <typename PerTriangle>

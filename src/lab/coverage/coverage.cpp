@@ -30,7 +30,7 @@ void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Win
   draw_in_sets(triangles, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
     drawn.clear();
     for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
-    backend.draw(drawn, frame.view(), kNoTriangle, {});
+    backend.draw(drawn, frame.view(), {kNoTriangle});
   });
 }
 
@@ -46,7 +46,7 @@ CoverageMethod make_from(const BackendInfo& backend, bool fills) {
            true},
           {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true, .snap_bits = contract::kSubBits},
           [&backend](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
-            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, execution);
+            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), {0}, execution);
           },
           [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
             backend_runs(*backend.make(), input.snapped, window, runs);

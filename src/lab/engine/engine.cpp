@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/execution.h"
 #include "edgewise/contract.h"
 #include "lab/coverage/draw_in_sets.h"
 #include "raster/tiles.h"
@@ -11,8 +12,7 @@ namespace edgewise::lab {
 
 void draw_engine(EngineArithmetic arithmetic, std::span<const ScreenTriangle> triangles, FrameView frame,
                  std::uint32_t background, const Execution& execution, TileScratch& scratch) {
-  Execution resolved = execution;
-  resolved.target = resolve(execution.target);
+  const Execution resolved = checked(execution);
   StoredTriangles stored(triangles);
   draw_in_tiles(stored, {.frame = frame, .background = background}, resolved, {.coverage_masks = false},
                 scratch, engine_kernel(arithmetic, resolved.target));
