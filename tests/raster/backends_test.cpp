@@ -305,6 +305,24 @@ TEST(StreamSource, CountsEachInputOnce) {
   EXPECT_TRUE(frontend.stats() == plain.stats());
 }
 
+TEST(SceneSource, NoticesAMissingVertexBeforeTheFrameIsWritten) {
+  Drawable drawable = find_scene("sphere").make({});
+  Mesh& mesh = std::get<Scene>(drawable).meshes[0];
+  mesh.triangles.back().y = static_cast<std::uint32_t>(mesh.positions.size());
+  const FrontendOptions options{.width = 64, .height = 64, .cull = Cull::none};
+  for (const BackendInfo& info : backends())
+    for (const int threads : {1, 2}) {
+      Frontend frontend;
+      Framebuffer frame(64, 64), before(64, 64);
+      lab::poison(frame), lab::poison(before);
+      EXPECT_EQ(message_of([&] {
+                  draw(drawable, frontend, options, *info.make(), frame.view(), {}, {.threads = threads});
+                }).substr(0, 9),
+                "triangle ");
+      testing::expect_same(before, frame, std::string(info.name));
+    }
+}
+
 TEST(StreamSource, MayBeUsedAgainAfterAnException) {
   class Throws : public Backend {
     void draw_checked(std::span<const ScreenTriangle>, const FramePart&, const Execution&) override {}
