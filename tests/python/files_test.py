@@ -94,11 +94,11 @@ def test_ids_have_the_programs_colours(tri, tmp_path):
     assert np.array_equal(edgewise.read_image(tmp_path / "ids.png"), edgewise.id_colours(stream().draw(ids=True).payload))
 
 
-def test_what_an_obj_file_lacks_is_a_warning(tmp_path):
-    path = tmp_path / "a.obj"
-    path.write_text("mtllib missing.mtl\nusemtl red\n" + OBJ)
-    with pytest.warns(UserWarning, match="missing.mtl"):
-        edgewise.Scene.read_obj(path)
+# And names in files need not be UTF-8.
+def test_what_an_obj_file_lacks_is_a_warning(obj):
+    obj.write_bytes(b"mtllib caf\xe9.mtl\nusemtl red\n" + OBJ.encode())
+    with pytest.warns(UserWarning, match="caf"):
+        edgewise.Scene.read_obj(obj)
 
 
 READERS = {"obj": edgewise.Scene.read_obj, "tri": edgewise.Stream.read_tri, "png": edgewise.read_image, "pfm": edgewise.read_pfm}
@@ -216,16 +216,11 @@ def test_a_file_that_cannot_be_written_is_an_os_error(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def changed():
-    a = scene().draw(CAMERA, SIZE, shade=False).payload.copy()
+def test_diff_says_what_the_program_says(tmp_path):
+    a = scene().draw(CAMERA, SIZE).payload
     b = a.copy()
     b[7, 5] ^= 0x30
     b[9, 2] ^= 0x10000
-    return a, b
-
-
-def test_diff_says_what_the_program_says(tmp_path):
-    a, b = changed()
     mask = np.zeros((HEIGHT, WIDTH), bool)
     mask[9] = True
     paths = [tmp_path / name for name in ("a.png", "b.ppm", "mask.png")]
@@ -280,13 +275,6 @@ def test_options_reach_the_library(tri):
     for side in sides:
         with pytest.raises(ValueError, match="does not cover"):
             drawn.barycentrics(drawn.draw(ids=True), cull=side)
-
-
-def test_names_in_files_need_not_be_utf8(tmp_path):
-    path = tmp_path / "latin.obj"
-    path.write_bytes(b"mtllib caf\xe9.mtl\n" + OBJ.encode())
-    with pytest.warns(UserWarning, match="caf"):
-        edgewise.Scene.read_obj(path)
 
 
 def test_needs_of_a_stream_are_the_programs(tri):
