@@ -103,14 +103,6 @@ py::list arrays_of(const Scene& scene) {
   return meshes;
 }
 
-py::list placed(const std::vector<Instance>& instances) {
-  const DefaultFloatState state;
-  py::list all;
-  for (const Instance& instance : instances)  // draws use this matrix, too
-    all.append(py::make_tuple(instance.mesh, rows_of(model_matrix({}, instance))));
-  return all;
-}
-
 std::unique_ptr<Drawn> stream(const Floats& vertices, const std::optional<Words>& colours, int width,
                               int height) {
   check(vertices, "vertices", {-1, 3, 3});
@@ -125,6 +117,7 @@ std::unique_ptr<Drawn> stream(const Floats& vertices, const std::optional<Words>
   return drawn(std::move(made));
 }
 
+// What stream() takes.
 py::tuple arrays_of(const TriangleStream& stream) {
   const auto count = static_cast<py::ssize_t>(stream.triangles.size());
   Floats vertices({count, py::ssize_t{3}, py::ssize_t{3}});
@@ -134,7 +127,7 @@ py::tuple arrays_of(const TriangleStream& stream) {
     std::memcpy(vertices.mutable_data() + 9 * i, t.vertex, sizeof t.vertex);
     colours.mutable_data()[i] = t.colour;
   }
-  return py::make_tuple(vertices, colours);
+  return py::make_tuple(vertices, colours, stream.width, stream.height);
 }
 
 template <typename Coordinate>
@@ -234,7 +227,12 @@ PYBIND11_MODULE(_native, m) {
            })
       .def("instances",
            [](Drawn& self) {
-             return placed(self.use_scene([](const Scene& scene) { return scene.instances; }));
+             const auto held = self.use_scene([](const Scene& scene) { return scene.instances; });
+             const DefaultFloatState state;
+             py::list all;
+             for (const Instance& instance : held)  // draws use this matrix, too
+               all.append(py::make_tuple(instance.mesh, rows_of(model_matrix({}, instance))));
+             return all;
            })
       .def("light",
            [](Drawn& self) {
@@ -277,12 +275,11 @@ PYBIND11_MODULE(_native, m) {
              });
              return py::make_tuple(rows_of(camera.view), rows_of(camera.projection));
            })
-      .def("size",  // None: a scene
+      .def("size",
            [](Drawn& self) {
-             using Size = std::optional<std::pair<int, int>>;
              return self.use([](const Drawable& drawable) {
-               const auto* const held = std::get_if<TriangleStream>(&drawable);
-               return held != nullptr ? Size({held->width, held->height}) : Size();
+               const auto& held = std::get<TriangleStream>(drawable);
+               return std::pair(held.width, held.height);
              });
            })
       .def("write_tri",

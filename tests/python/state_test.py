@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import edgewise
-from support import ASPECT, CAMERA, MOVED, SIZE, same, scene, stream, triangles
+from support import ASPECT, CAMERA, MOVED, SIZE, scene, stream, triangles
 
 QUADS = (0, 0, 0), (1, 0, 0.2), (1, 1, 0), (0, 1, 0.3), (2, 0, 0), (2, 1, 0.4)
 COPIES = {"copy": copy.copy, "deepcopy": copy.deepcopy,
@@ -26,7 +26,7 @@ def of_file(tmp_path, offset):
     """Bent quads with one normal each, coloured by a material; far from the origin, the reader places them by a translation."""
     (tmp_path / "a.mtl").write_text("newmtl a\nKd 1 0.5 0.1\n")
     (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl a\n" + "".join(f"v {x + offset} {y} {z}\n" for x, y, z in QUADS) +
-                                    "f 1 2 3 4\nf 2 5 6 3\nf 1 2 6\n")
+                                    "f 1 2 3 4\no caf\u00e9\nf 2 5 6 3\nf 1 2 6\n", "latin-1")
     return edgewise.Scene.read_obj(tmp_path / "a.obj")
 
 
@@ -65,6 +65,7 @@ def test_a_copy_draws_the_same_and_is_another(drawn, how):
     assert type(other) is type(drawn) and hashes(other) == before
     assert list(other.first_ids()) == list(drawn.first_ids())
     if isinstance(other, edgewise.Scene):
+        assert str(other.objects()) == str(drawn.objects())
         other.add_instance(other.add_mesh(*triangles(5)[:2]))
         if drawn.instances:
             other.set_instance(0, MOVED)

@@ -202,9 +202,8 @@ def _scene_of(meshes: list[Any], instances: list[Any], light: Any) -> Any:
 
 def _reduced(drawable: Any) -> tuple[Any, ...]:
     held = copy.deepcopy(drawable)  # which no other thread changes
-    if size := held.size():
-        return _native.Drawable, (*held.arrays(), *size)
-    return _scene_of, (held.arrays(), held.instances(), held.light())
+    arrays = held.arrays()
+    return (_native.Drawable, arrays) if isinstance(arrays, tuple) else (_scene_of, (arrays, held.instances(), held.light()))
 
 
 copyreg.pickle(_native.Drawable, _reduced)

@@ -194,15 +194,14 @@ def interpolate(self: edgewise.Scene, frame: Frame, attribute: ArrayLike | Seque
     arrays = [_check.as_array(values, "attribute", "an array, or a list of them") for values in given]
     if len(arrays) != len(meshes):
         raise ValueError(f"attribute: {len(arrays)} arrays given instead of {len(meshes)}; a list has one per mesh")
+    rest = arrays[0].shape[1:] if arrays else ()
     for i, (array, (vertices, _)) in enumerate(zip(arrays, meshes)):
         if array.dtype.kind not in "iuf":
             raise ValueError(f"attribute: that of mesh {i} must be numbers, not {array.dtype}")
-        wanted = (vertices, *arrays[0].shape[1:])
-        if array.shape != wanted:
-            raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {wanted}")
+        if array.shape != (vertices, *rest):
+            raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {(vertices, *rest)}")
     drawn, triangles, instances = _shown(self, frame)
     uv, _ = self.barycentrics(frame, camera, cull=cull, threads=threads, progress=progress)
-    rest = arrays[0].shape[1:] if arrays else ()
     result = np.full((*drawn.shape, *rest), np.nan, np.result_type(np.float32, *arrays))
     if triangles.size:
         of_instance = np.array([mesh for mesh, _ in self.instances])[instances]
