@@ -78,6 +78,14 @@ Array<T> as_array(const std::vector<glm::vec<3, T>>& rows) {
                   reinterpret_cast<const T*>(rows.data()));
 }
 
+// convert(value) of each.
+template <typename Values, typename Convert>
+py::list list_of(const Values& values, Convert&& convert) {
+  py::list all;
+  for (const auto& value : values) all.append(convert(value));
+  return all;
+}
+
 // One camera per view; none for a stream.
 inline std::vector<CameraMatrices> cameras_of(const Matrix& views, const Matrix& projections) {
   std::vector<CameraMatrices> cameras;

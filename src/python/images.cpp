@@ -17,11 +17,6 @@ using From = std::variant<Path, Words, Shorts, Floats>;  // Words: colours, Shor
 
 // What the reader of a file warns of.
 using Notes = std::vector<std::string>;
-py::list texts_of(const Notes& notes) {
-  py::list texts;
-  for (const std::string& note : notes) texts.append(text_of(note));
-  return texts;
-}
 
 // An Image, a Grey16 or a DepthMap.
 template <typename Of, typename Pixel>
@@ -76,7 +71,7 @@ py::tuple diff(const From& a_from, const From& b_from, const std::optional<From>
       d.count == 0 ? py::object(py::none()) : py::object(py::make_tuple(d.first_x, d.first_y));
   return py::make_tuple(d.count, d.largest, d.scale, first, d.masked, d.masked_count,
                         as_array(d.picture.pixels, d.picture.width, d.picture.height), d.alpha_count,
-                        texts_of(notes));
+                        list_of(notes, text_of));
 }
 
 // 16-bit grey stays what it is.
@@ -90,7 +85,7 @@ py::tuple read_colours(const Path& path) {
   });
   return std::visit(
       [&](const auto& read) {
-        return py::make_tuple(as_array(read.pixels, read.width, read.height), texts_of(notes));
+        return py::make_tuple(as_array(read.pixels, read.width, read.height), list_of(notes, text_of));
       },
       image);
 }

@@ -91,16 +91,14 @@ py::list arrays_of(const Scene& scene) {
   const auto or_none = [](const auto& values) {
     return values.empty() ? py::object(py::none()) : py::object(as_array(values));
   };
-  py::list meshes;
-  for (const Mesh& mesh : scene.meshes) {
-    py::list parts;
-    for (const MeshPart& part : mesh.parts)
-      parts.append(py::make_tuple(py::bytes(part.name), part.first, part.count));
-    meshes.append(py::make_tuple(as_array(mesh.positions), as_array(mesh.triangles), as_array(mesh.colours),
-                                 or_none(mesh.flags), or_none(mesh.normals),
-                                 Matrix(3, glm::value_ptr(mesh.origin)), parts));
-  }
-  return meshes;
+  const auto part_of = [](const MeshPart& part) {
+    return py::make_tuple(py::bytes(part.name), part.first, part.count);
+  };
+  return list_of(scene.meshes, [&](const Mesh& mesh) {
+    return py::make_tuple(as_array(mesh.positions), as_array(mesh.triangles), as_array(mesh.colours),
+                          or_none(mesh.flags), or_none(mesh.normals), Matrix(3, glm::value_ptr(mesh.origin)),
+                          list_of(mesh.parts, part_of));
+  });
 }
 
 std::unique_ptr<Drawn> stream(const Floats& vertices, const std::optional<Words>& colours, int width,
@@ -150,9 +148,8 @@ PYBIND11_MODULE(_native, m) {
   m.attr("DEPTH_RANGE") = contract::kDepthRange;
   m.attr("DEPTH_CLEAR") = contract::kDepthClear;
   m.attr("MAX_SIDE") = contract::kMaxImageSide;
-  py::list names;
-  for (const BackendInfo& backend : backends()) names.append(std::string(backend.name));
-  m.attr("BACKENDS") = names;
+  m.attr("BACKENDS") =
+      list_of(backends(), [](const BackendInfo& backend) { return py::str(std::string(backend.name)); });
   m.attr("TWO_SIDED") = kTwoSided;
   m.attr("PARALLEL_FOR") = py::capsule(&detail::parallel_for);
 
@@ -187,17 +184,13 @@ PYBIND11_MODULE(_native, m) {
       const Released released;
       for (std::size_t i = 0; i < frames.views; ++i) views.push_back(visible_triangles(frames[i]));
     }
-    py::list arrays;
-    for (const auto& ids : views) arrays.append(as_array(ids));
-    return arrays;
+    return list_of(views, [](const auto& ids) { return as_array(ids); });
   });
 
   m.def("read_obj", [](const Path& path) {
     ObjReport report;
     auto read = with_file_only([&] { return drawn(read_obj(path, {}, &report)); });
-    py::list warnings;
-    for (const std::string& warning : report.warnings) warnings.append(text_of(warning));
-    return std::pair(std::move(read), warnings);
+    return std::pair(std::move(read), list_of(report.warnings, text_of));
   });
   m.def("read_tri", [](const Path& path) { return with_file_only([&] { return drawn(read_tri(path)); }); });
 
@@ -220,19 +213,16 @@ PYBIND11_MODULE(_native, m) {
              self.use_scene([&](const Scene& scene) {
                for (const Mesh& mesh : scene.meshes) held.emplace_back(mesh.positions.size(), mesh.triangles);
              });
-             py::list meshes;
-             for (const auto& [vertices, triangles] : held)
-               meshes.append(py::make_tuple(vertices, as_array(triangles)));
-             return meshes;
+             return list_of(
+                 held, [](const auto& mesh) { return py::make_tuple(mesh.first, as_array(mesh.second)); });
            })
       .def("instances",
            [](Drawn& self) {
              const auto held = self.use_scene([](const Scene& scene) { return scene.instances; });
              const DefaultFloatState state;
-             py::list all;
-             for (const Instance& instance : held)  // draws use this matrix, too
-               all.append(py::make_tuple(instance.mesh, rows_of(model_matrix({}, instance))));
-             return all;
+             return list_of(held, [](const Instance& instance) {  // draws use this matrix, too
+               return py::make_tuple(instance.mesh, rows_of(model_matrix({}, instance)));
+             });
            })
       .def("light",
            [](Drawn& self) {
