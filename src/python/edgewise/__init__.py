@@ -200,9 +200,9 @@ def _scene_of(meshes: list[Any], instances: list[Any], light: Any) -> Any:
     return made
 
 
-def _reduced(drawable: Any) -> tuple[Any, ...]:
+def _reduced(drawable: Any) -> tuple[Callable[..., Any], tuple[Any, ...]]:
     held = copy.deepcopy(drawable)  # which no other thread changes
-    arrays = held.arrays()
+    arrays = held.arrays()  # of a stream, a tuple
     return (_native.Drawable, arrays) if isinstance(arrays, tuple) else (_scene_of, (arrays, held.instances(), held.light()))
 
 
