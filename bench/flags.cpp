@@ -64,7 +64,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
                       flags.suite.threads.clear();
                       std::istringstream numbers(text);
                       for (std::string number; std::getline(numbers, number, ',');)
-                        flags.suite.threads.insert(tools::parse_integer("--threads", number, 1, kMaxThreads));
+                        flags.suite.threads.insert(tools::parse_number("--threads", number, 1, kMaxThreads));
                       if (flags.suite.threads.empty()) throw std::invalid_argument("--threads: no number");
                     });
   tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
@@ -105,7 +105,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   std::erase_if(flags.benchmark, [&](const std::string& flag) {
     if (!flag.starts_with(kRepetitions)) return false;
     flags.repetitions =
-        tools::parse_integer("--benchmark_repetitions", flag.substr(kRepetitions.size()), 1, 1'000'000);
+        tools::parse_number("--benchmark_repetitions", flag.substr(kRepetitions.size()), 1, 1'000'000);
     return true;
   });
   return flags;

@@ -22,7 +22,7 @@
 #include "core/atomic_file.h"
 #include "core/parallel.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/machine.h"
 #include "support/options.h"
 #include "support/output_path.h"

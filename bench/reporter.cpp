@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "support/json_text.h"
+#include "support/json.h"
 
 namespace edgewise::bench {
 

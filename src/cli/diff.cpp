@@ -17,7 +17,7 @@
 #include "edgewise/image.h"
 #include "image/format.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/output_path.h"
 #include "support/source.h"
 

@@ -14,7 +14,7 @@
 #include "edgewise/hash.h"
 #include "image/pictures.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/options.h"
 #include "support/printable.h"
 #include "support/progress.h"

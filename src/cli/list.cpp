@@ -13,7 +13,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/machine.h"
 
 namespace edgewise::tools {

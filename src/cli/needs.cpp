@@ -15,7 +15,7 @@
 #include "cli/commands.h"
 #include "core/trigonometry.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/options.h"
 #include "support/printable.h"
 #include "support/progress.h"

@@ -16,7 +16,7 @@
 #include "image/pictures.h"
 #include "lab/portable/portable.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/options.h"
 #include "support/output_path.h"
 #include "support/printable.h"
@@ -51,11 +51,11 @@ Image mask_of(const lab::PortablePixels& found) {
 // "N" or "N-M". Positions rounded to more bits than the fewest are within their step, too.
 int fewest_bits(const std::string& text) {
   const auto dash = text.find('-', 1);
-  const int fewest = parse_integer("--bits", text.substr(0, dash), 1, 16);
+  const int fewest = parse_number("--bits", text.substr(0, dash), 1, 16);
   if (fewest > contract::kSubBits)
     throw std::invalid_argument(
         fmt::format("--bits: at most {}, the subpixel bits that the library draws", contract::kSubBits));
-  if (dash != std::string::npos) parse_integer("--bits", text.substr(dash + 1), fewest, 16);
+  if (dash != std::string::npos) parse_number("--bits", text.substr(dash + 1), fewest, 16);
   return fewest;
 }
 

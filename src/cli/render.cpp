@@ -18,7 +18,7 @@
 #include "image/pictures.h"
 #include "lab/measure.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/milliseconds.h"
 #include "support/options.h"
 #include "support/output_path.h"

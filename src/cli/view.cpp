@@ -15,7 +15,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "support/console.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/options.h"
 #include "support/output_path.h"
 #include "support/printable.h"

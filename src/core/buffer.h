@@ -11,7 +11,6 @@
 #include <memory>
 #include <new>
 #include <type_traits>
-#include <utility>
 
 namespace edgewise {
 
@@ -44,38 +43,27 @@ class Buffer {
  public:
   static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_destructible_v<T>);
 
-  Buffer() = default;
-  Buffer(Buffer&& other) noexcept
-      : data_(std::move(other.data_)), capacity_(std::exchange(other.capacity_, 0)) {}
-  Buffer& operator=(Buffer&& other) noexcept {
-    data_ = std::move(other.data_);
-    capacity_ = std::exchange(other.capacity_, 0);
-    return *this;
-  }
-
   // Capacity for at least `count` records. Growing discards the contents.
   void reserve(std::size_t count) {
-    if (count <= capacity_) return;
+    if (count <= capacity()) return;
     if (count > PTRDIFF_MAX / sizeof(T)) throw std::bad_alloc();
     data_.reset();  // first, so that both are never held at once
-    capacity_ = 0;
     const std::size_t bytes = count * sizeof(T);
     const std::align_val_t alignment = alignment_for(bytes, alignof(T));
-    data_ = {static_cast<T*>(allocate_aligned(bytes, alignment)), Free{alignment}};
-    capacity_ = count;
+    data_ = {static_cast<T*>(allocate_aligned(bytes, alignment)), Free{alignment, count}};
   }
   T* data() { return data_.get(); }
   const T* data() const { return data_.get(); }
-  std::size_t capacity() const { return capacity_; }
+  std::size_t capacity() const { return data_ ? data_.get_deleter().capacity : 0; }
 
  private:
   struct Free {
     std::align_val_t alignment{};
+    std::size_t capacity = 0;
     void operator()(T* data) const { ::operator delete(data, alignment); }
   };
 
   std::unique_ptr<T, Free> data_;
-  std::size_t capacity_ = 0;
 };
 
 }  // namespace edgewise

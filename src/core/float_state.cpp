@@ -2,9 +2,11 @@
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
+#endif
 
 namespace edgewise {
 
+#if defined(__x86_64__)
 // Saves only MXCSR: the library does not use x87, whose state is slow to change.
 DefaultFloatState::DefaultFloatState() : callers_(_mm_getcsr()) {
   constexpr unsigned kDefault = _MM_MASK_MASK | _MM_ROUND_NEAREST | _MM_FLUSH_ZERO_OFF;
@@ -13,12 +15,7 @@ DefaultFloatState::DefaultFloatState() : callers_(_mm_getcsr()) {
 DefaultFloatState::~DefaultFloatState() {
   if (_mm_getcsr() != callers_) _mm_setcsr(callers_);
 }
-
-}  // namespace edgewise
 #elif !defined(__wasm__)
-
-namespace edgewise {
-
 DefaultFloatState::DefaultFloatState() {
   std::fegetenv(&callers_);
   std::fesetenv(FE_DFL_ENV);
@@ -26,6 +23,6 @@ DefaultFloatState::DefaultFloatState() {
 DefaultFloatState::~DefaultFloatState() {
   std::fesetenv(&callers_);
 }
+#endif
 
 }  // namespace edgewise
-#endif

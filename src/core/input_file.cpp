@@ -4,13 +4,13 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
 #include <locale>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "core/parse_number.h"
 #include "edgewise/limits.h"
 
 namespace edgewise {
@@ -47,10 +47,7 @@ std::optional<int> descriptor_of(const fs::path& path) {
     if (name == kStreams[i]) return static_cast<int>(i);
   for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
     if (!name.starts_with(folder)) continue;
-    int descriptor = 0;
-    const char* const end = name.data() + name.size();
-    const auto parsed = std::from_chars(name.data() + folder.size(), end, descriptor);
-    if (parsed.ec == std::errc() && parsed.ptr == end) return descriptor;
+    if (const auto descriptor = parsed<int>(std::string_view(name).substr(folder.size()))) return descriptor;
   }
   return {};
 }

@@ -15,13 +15,10 @@ namespace edgewise {
 // From a number whose bytes in memory are in little endian, and back.
 template <std::unsigned_integral T>
 constexpr T little_endian(T number) {
-  static_assert(sizeof(T) == 4 || sizeof(T) == 8);
   if constexpr (std::endian::native == std::endian::little)
     return number;
-  else if constexpr (sizeof(T) == 8)
-    return __builtin_bswap64(number);
   else
-    return __builtin_bswap32(number);
+    return static_cast<T>(__builtin_bswap64(number) >> (64 - 8 * sizeof(T)));
 }
 
 // Converts 32-bit words, integers or floats, from this byte order to the machine's, and back.

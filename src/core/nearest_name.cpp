@@ -27,9 +27,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known) {
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
-    return edit_distance(name, a) < edit_distance(name, b);
-  });
+  const auto nearest = std::ranges::min_element(known, {}, [&](auto k) { return edit_distance(name, k); });
   return nearest == known.end() ? "" : "; did you mean '" + std::string(*nearest) + "'?";
 }
 
@@ -37,10 +35,7 @@ std::string unknown_name(std::string_view kind, std::string_view name,
                          std::span<const std::string_view> known) {
   std::string text = "unknown " + std::string(kind) + " '" + std::string(name) + "'";
   text += did_you_mean(name, known) + " (known:";
-  for (const auto k : known) {
-    text += ' ';
-    text += k;
-  }
+  for (const auto k : known) text.append(" ").append(k);
   return text += ')';
 }
 

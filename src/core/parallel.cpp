@@ -18,17 +18,18 @@
 #ifdef EDGEWISE_TELL_TSAN
 #include <sanitizer/tsan_interface.h>
 #endif
+#endif
 
 namespace edgewise::detail {
 
 namespace {
 
+#ifdef EDGEWISE_THREADS
 // The process that uses oneTBB. A child that it forks has none of oneTBB's workers, but perhaps locks that
 // they held, so nothing may lock before this is read. A child of that child could only be taken for the user
 // if the system gives it the same number again, after the user has ended: then its first draw may hang.
 constinit std::atomic<pid_t> user{0};
-// Threads may draw until the process has ended, but oneTBB's static objects are destroyed soon after this
-// one.
+// oneTBB's static objects are destroyed soon after this one, while threads may still draw.
 struct Exit {
   ~Exit() { user = -1; }
 } const at_exit;
@@ -55,47 +56,40 @@ tbb::task_arena& arena_for(int threads) {
 // file is not instrumented either, and announces only the guaranteed order: tasks begin after their section
 // begins, and end before it ends. Two tasks that access the same memory are still reported
 // (tests/sanitizers/seeded_race.cpp).
-class Section {
- public:
 #ifdef EDGEWISE_TELL_TSAN
-  Section() {
-    __tsan_release(&begun_);
-  }
-  ~Section() {
-    __tsan_acquire(&ended_);
-  }
-  void task_begins() {
-    __tsan_acquire(&begun_);
-  }
-  void task_ends() {
-    __tsan_release(&ended_);
-  }
-
- private:
-  char begun_, ended_;
+constexpr auto* kRelease = __tsan_release;
+constexpr auto* kAcquire = __tsan_acquire;
 #else
-  void task_begins() {}
-  void task_ends() {}
+constexpr auto kRelease = [](void*) {}, kAcquire = kRelease;
 #endif
+struct Section {
+  Section() { kRelease(&begun); }
+  ~Section() { kAcquire(&ended); }
+  void task_begins() { kAcquire(&begun); }
+  void task_ends() { kRelease(&ended); }
+  char begun, ended;
 };
+#endif
 
-void run(int threads, int count, void (*call)(void*, int), void* context) {
-  if (!may_use_tbb()) {
-    for (int i = 0; i < count; ++i) call(context, i);
+void run([[maybe_unused]] int threads, int count, void (*call)(void*, int), void* context) {
+#ifdef EDGEWISE_THREADS
+  if (may_use_tbb()) {
+    Section section;
+    arena_for(threads).execute([&] {
+      tbb::parallel_for(
+          0, count,
+          [&](int i) {
+            section.task_begins();
+            const DefaultFloatState state;  // this may be one of oneTBB's threads
+            call(context, i);
+            section.task_ends();
+          },
+          tbb::simple_partitioner{});
+    });
     return;
   }
-  Section section;
-  arena_for(threads).execute([&] {
-    tbb::parallel_for(
-        0, count,
-        [&](int i) {
-          section.task_begins();
-          const DefaultFloatState state;  // this may be one of oneTBB's threads
-          call(context, i);
-          section.task_ends();
-        },
-        tbb::simple_partitioner{});
-  });
+#endif
+  for (int i = 0; i < count; ++i) call(context, i);
 }
 
 }  // namespace
@@ -105,16 +99,7 @@ constinit ParallelFor parallel_for = run;
 }  // namespace edgewise::detail
 
 void edgewise::allow_more_threads_than_cores() {
+#ifdef EDGEWISE_THREADS
   static const tbb::global_control kept(tbb::global_control::max_allowed_parallelism, 1024);
-}
-
-#else
-
-constinit edgewise::detail::ParallelFor edgewise::detail::parallel_for =
-    [](int, int count, void (*call)(void*, int), void* context) {
-      for (int i = 0; i < count; ++i) call(context, i);
-    };
-
-void edgewise::allow_more_threads_than_cores() {}
-
 #endif
+}

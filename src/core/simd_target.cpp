@@ -2,6 +2,7 @@
 
 #include <hwy/targets.h>
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,21 +31,10 @@ std::span<const SimdTarget> supported_targets() {
 [[maybe_unused]] static const auto kMade = supported_targets();
 
 std::string_view name_of(SimdTarget target) {
-  switch (target) {
-    case SimdTarget::scalar:
-      return "scalar";
-    case SimdTarget::sse4:
-      return "sse4";
-    case SimdTarget::avx2:
-      return "avx2";
-    case SimdTarget::avx512:
-      return "avx512";
-    case SimdTarget::neon:
-      return "neon";
-    case SimdTarget::best:
-      return "best";
-  }
-  throw std::invalid_argument("not a SIMD target");
+  constexpr std::array<std::string_view, 6> kNames{"scalar", "sse4", "avx2", "avx512", "neon", "best"};
+  const auto i = static_cast<std::size_t>(target);
+  if (i >= kNames.size()) throw std::invalid_argument("not a SIMD target");
+  return kNames[i];
 }
 
 SimdTarget resolve(SimdTarget target) {

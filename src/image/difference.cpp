@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "core/float_state.h"
@@ -32,104 +33,94 @@ void require_same_size(const A& a, const B& b, const char* of = "") {
                                 size_text(b.width, b.height) + " pixels" + of);
 }
 
-// `delta(i)` is the difference at pixel i, and `alpha(i)` whether alpha differs there; `grey(i)` is the
-// brightness of an equal pixel, at most kBrightestGrey.
-template <typename Delta, typename Alpha, typename Grey>
-Difference compare(int width, int height, int scale, const Samples* mask, const Delta& delta,
-                   const Alpha& alpha, const Grey& grey) {
-  Difference result;
-  result.scale = scale;
-  const auto columns = static_cast<std::size_t>(width), pixels = columns * static_cast<std::size_t>(height);
-  const auto masked = [mask](std::size_t i) {
-    return mask != nullptr && (mask->pixels[i][0] | mask->pixels[i][1] | mask->pixels[i][2]) != 0;
-  };
-  double largest_finite = 0.0;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const double d = delta(i);
-    if (masked(i)) {
-      ++result.masked;
-      result.masked_count += d != 0.0;
-      continue;
-    }
-    result.alpha_count += alpha(i);
-    if (d == 0.0) continue;
-    if (result.count++ == 0) {
-      result.first_x = static_cast<int>(i % columns);
-      result.first_y = static_cast<int>(i / columns);
-    }
-    result.largest = std::max(result.largest, d);
-    if (std::isfinite(d)) largest_finite = std::max(largest_finite, d);
-  }
-
-  result.picture = {width, height, std::vector<std::uint32_t>(pixels)};
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const double d = masked(i) ? 0.0 : delta(i), share = std::isfinite(d) ? d / largest_finite : 1.0;
-    const std::uint32_t g = d == 0.0 ? grey(i) : 0;
-    result.picture.pixels[i] =
-        d == 0.0 ? rgb(g, g, g)
-                 : rgb(static_cast<std::uint32_t>(kFaintestRed + (255.0 - kFaintestRed) * share), 0, 0);
-  }
-  return result;
-}
-
 double float_delta(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0.0;
   const double delta = std::fabs(static_cast<double>(a) - b);
   return std::isnan(delta) ? std::numeric_limits<double>::infinity() : delta;
 }
 
-Difference compare(const Samples& a, const Samples& b, const Samples* mask) {
-  const int unit = a.deep || b.deep ? 1 : 257;
-  return compare(
-      a.width, a.height, 65535 / unit, mask,
-      [&](std::size_t i) {
-        int delta = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-          delta = std::max(delta, std::abs(a.pixels[i][c] - b.pixels[i][c]));
-        return delta / unit;
-      },
-      [&](std::size_t i) { return a.pixels[i][3] != b.pixels[i][3]; },
-      [&](std::size_t i) {
-        const Samples::Pixel& p = a.pixels[i];
-        return (std::uint32_t{p[0]} + p[1] + p[2]) * kBrightestGrey / (3 * 65535);
-      });
+// Two pixels: the difference of the channel that differs most, and the brightness of the first one, at most
+// kBrightestGrey.
+struct Compared {
+  double delta;
+  bool alpha_differs;
+  std::uint32_t grey;
+};
+
+int scale_of(const Samples& a, const Samples& b) {
+  return a.deep || b.deep ? 65535 : 255;
+}
+Compared compared(const Samples& a, const Samples& b, std::size_t i) {
+  const Samples::Pixel &p = a.pixels[i], &q = b.pixels[i];
+  int delta = 0;
+  for (std::size_t c = 0; c < 3; ++c) delta = std::max(delta, std::abs(p[c] - q[c]));
+  return {static_cast<double>(delta / (65535 / scale_of(a, b))), p[3] != q[3],
+          (std::uint32_t{p[0]} + p[1] + p[2]) * kBrightestGrey / (3 * 65535)};
 }
 
-// Of a pixel the channel that differs most counts. A single channel is a depth, of which the nearer is
-// brighter.
-Difference compare(int width, int height, int channels, const std::vector<float>& a,
-                   const std::vector<float>& b, const Samples* mask) {
-  const auto count = static_cast<std::size_t>(channels);
-  return compare(
-      width, height, 1, mask,
-      [&](std::size_t i) {
-        double largest = 0.0;
-        for (std::size_t c = i * count; c < (i + 1) * count; ++c)
-          largest = std::max(largest, float_delta(a[c], b[c]));
-        return largest;
-      },
-      [](std::size_t) { return false; },
-      [&](std::size_t i) {
-        float sum = 0.0f;
-        for (std::size_t c = i * count; c < (i + 1) * count; ++c)
-          if (a[c] >= 0.0f && a[c] <= 1.0f) sum += channels == 1 ? 1.0f - a[c] : a[c];
-        return static_cast<std::uint32_t>(sum * static_cast<float>(kBrightestGrey) /
-                                          static_cast<float>(channels));
-      });
+int scale_of(const FloatMap&, const FloatMap&) {
+  return 1;
+}
+// A single channel is a depth, of which the nearer is brighter.
+Compared compared(const FloatMap& a, const FloatMap& b, std::size_t i) {
+  const auto channels = static_cast<std::size_t>(a.channels);
+  double largest = 0.0;
+  float sum = 0.0f;
+  for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) {
+    const float value = a.values[c];
+    largest = std::max(largest, float_delta(value, b.values[c]));
+    if (value >= 0.0f && value <= 1.0f) sum += channels == 1 ? 1.0f - value : value;
+  }
+  return {
+      largest, false,
+      static_cast<std::uint32_t>(sum * static_cast<float>(kBrightestGrey) / static_cast<float>(channels))};
+}
+
+template <typename Kind>
+Difference compare(const Kind& a, const Kind& b, const Samples* mask) {
+  const auto columns = static_cast<std::size_t>(a.width),
+             pixels = columns * static_cast<std::size_t>(a.height);
+  Difference result;
+  result.scale = scale_of(a, b);
+  result.picture = {a.width, a.height, std::vector<std::uint32_t>(pixels)};
+  std::vector<std::pair<std::size_t, double>> differing;
+  double largest_finite = 0.0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const auto [delta, alpha_differs, grey] = compared(a, b, i);
+    result.picture.pixels[i] = rgb(grey, grey, grey);
+    if (mask != nullptr && (mask->pixels[i][0] | mask->pixels[i][1] | mask->pixels[i][2]) != 0) {
+      ++result.masked;
+      result.masked_count += delta != 0.0;
+      continue;
+    }
+    result.alpha_count += alpha_differs;
+    if (delta == 0.0) continue;
+    differing.emplace_back(i, delta);
+    result.largest = std::max(result.largest, delta);
+    if (std::isfinite(delta)) largest_finite = std::max(largest_finite, delta);
+  }
+  result.count = differing.size();
+  if (result.count > 0) {
+    result.first_x = static_cast<int>(differing[0].first % columns);
+    result.first_y = static_cast<int>(differing[0].first / columns);
+  }
+  for (const auto& [i, delta] : differing) {
+    const double share = std::isfinite(delta) ? delta / largest_finite : 1.0;
+    result.picture.pixels[i] =
+        rgb(static_cast<std::uint32_t>(kFaintestRed + (255.0 - kFaintestRed) * share), 0, 0);
+  }
+  return result;
 }
 
 }  // namespace
 
 Difference difference(const Image& a, const Image& b) {
-  const DefaultFloatState state;
-  require_same_size(a, b);
-  return compare(to_samples(a), to_samples(b), nullptr);
+  return difference(to_samples(a), to_samples(b), nullptr);
 }
 
 Difference difference(const DepthMap& a, const DepthMap& b) {
-  const DefaultFloatState state;
-  require_same_size(a, b);
-  return compare(a.width, a.height, 1, a.depth01, b.depth01, nullptr);
+  return difference(FloatMap{a.width, a.height, 1, a.depth01}, FloatMap{b.width, b.height, 1, b.depth01},
+                    nullptr);
 }
 
 Difference difference(const Picture& a, const Picture& b, const Picture* mask) {
@@ -145,13 +136,10 @@ Difference difference(const Picture& a, const Picture& b, const Picture* mask) {
           throw std::invalid_argument("a picture cannot be compared with a depth map or other floats");
         require_same_size(first, *second);
         if (masks != nullptr) require_same_size(first, *masks, " of the mask");
-        if constexpr (std::is_same_v<Kind, Samples>) {
-          return compare(first, *second, masks);
-        } else {
+        if constexpr (std::is_same_v<Kind, FloatMap>)
           if (first.channels != second->channels)
             throw std::invalid_argument("a depth map cannot be compared with three channels of floats");
-          return compare(first.width, first.height, first.channels, first.values, second->values, masks);
-        }
+        return compare(first, *second, masks);
       },
       a);
 }

@@ -28,18 +28,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PngWriter : png_image {
-  PngWriter() : png_image{} { version = PNG_IMAGE_VERSION; }
-  ~PngWriter() { png_image_free(this); }
-  PngWriter(const PngWriter&) = delete;
-  PngWriter& operator=(const PngWriter&) = delete;
-};
+// Calls write(stream of the file).
+template <typename AnyPicture, typename Write>
+void write_whole(const fs::path& path, const AnyPicture& picture, std::size_t pixels, const Write& write) {
+  const DefaultFloatState state;
+  netpbm::check_pixels(path, picture.width, picture.height, pixels);
+  AtomicFile file(path);
+  write(file.stream());
+  file.commit();
+}
 
-void write_png(std::ostream& out, const fs::path& path, int width, int height, png_uint_32 format,
+template <typename AnyPicture>
+void write_png(std::ostream& out, const fs::path& path, const AnyPicture& picture, png_uint_32 format,
                const void* samples) {
-  PngWriter png;
-  png.width = static_cast<png_uint_32>(width);
-  png.height = static_cast<png_uint_32>(height);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(picture.width);
+  png.height = static_cast<png_uint_32>(picture.height);
   png.format = format;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   const auto encoded = std::make_unique_for_overwrite<char[]>(size);
@@ -50,16 +55,13 @@ void write_png(std::ostream& out, const fs::path& path, int width, int height, p
 
 class PngReader {
  public:
-  PngReader(const fs::path& path, InputFile file) : path_(path), file_(std::move(file)) {
-    if (png_ != nullptr && info_ != nullptr) return;
-    png_destroy_read_struct(&png_, &info_, nullptr);
-    throw std::bad_alloc();
-  }
+  PngReader(const fs::path& path, InputFile file) : path_(path), file_(std::move(file)) {}
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
   Samples read(std::vector<std::string>* warnings) {
+    if (info_ == nullptr) throw std::bad_alloc();
     run([&] {
       png_set_read_fn(png_, this, read_bytes);
       png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // checked_size() reports large ones
@@ -146,32 +148,24 @@ void write_image(const fs::path& path, const Image& image) {
 }
 
 void write_image(const fs::path& path, const Image& image, Format format) {
-  const DefaultFloatState state;
-  netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
-  AtomicFile file(path);
-  if (format == Format::png)
-    write_png(file.stream(), path, image.width, image.height, PNG_FORMAT_RGB, rgb_bytes(image).data());
-  else
-    write_ppm(file.stream(), image);
-  file.commit();
+  write_whole(path, image, image.pixels.size(), [&](std::ostream& out) {
+    if (format == Format::png)
+      write_png(out, path, image, PNG_FORMAT_RGB, rgb_bytes(image).data());
+    else
+      write_ppm(out, image);
+  });
 }
 
 void write_grey16(const fs::path& path, const Grey16& image) {
-  const DefaultFloatState state;
   if (format_of(path) != Format::png)
     throw file_error(path, "is not a .png, the only format for 16-bit grey");
-  netpbm::check_pixels(path, image.width, image.height, image.pixels.size());
-  AtomicFile file(path);
-  write_png(file.stream(), path, image.width, image.height, PNG_FORMAT_LINEAR_Y, image.pixels.data());
-  file.commit();
+  write_whole(path, image, image.pixels.size(), [&](std::ostream& out) {
+    write_png(out, path, image, PNG_FORMAT_LINEAR_Y, image.pixels.data());
+  });
 }
 
 void write_pfm(const fs::path& path, const DepthMap& map) {
-  const DefaultFloatState state;
-  netpbm::check_pixels(path, map.width, map.height, map.depth01.size());
-  AtomicFile file(path);
-  write_pfm(file.stream(), map);
-  file.commit();
+  write_whole(path, map, map.depth01.size(), [&](std::ostream& out) { write_pfm(out, map); });
 }
 
 DepthMap read_pfm(const fs::path& path) {
@@ -194,9 +188,10 @@ Picture read_picture(const fs::path& path, std::vector<std::string>* warnings) {
 
 Image to_image(const fs::path& path, const Picture& picture) {
   const DefaultFloatState state;
+  Image image;
   if (const auto* const samples = std::get_if<Samples>(&picture)) {
     const auto reduced = [](std::uint16_t sample) { return (sample * 255u + 32767u) / 65535u; };
-    Image image{samples->width, samples->height, {}};
+    image = {samples->width, samples->height, {}};
     image.pixels.reserve(samples->pixels.size());
     for (const auto& [r, g, b, alpha] : samples->pixels)
       image.pixels.push_back(rgb(reduced(r), reduced(g), reduced(b)));
@@ -207,11 +202,10 @@ Image to_image(const fs::path& path, const Picture& picture) {
   const auto reduced = [](float value) {  // NaN becomes 0
     return value > 0.0f ? static_cast<std::uint32_t>(std::min(value, 1.0f) * 255.0f + 0.5f) : 0u;
   };
-  Image image{map.width, map.height, {}};
+  image = {map.width, map.height, {}};
   image.pixels.reserve(map.values.size() / 3);
-  for (std::size_t i = 0; i < map.values.size(); i += 3)
-    image.pixels.push_back(
-        rgb(reduced(map.values[i]), reduced(map.values[i + 1]), reduced(map.values[i + 2])));
+  for (auto v = map.values.begin(); v != map.values.end(); v += 3)
+    image.pixels.push_back(rgb(reduced(v[0]), reduced(v[1]), reduced(v[2])));
   return image;
 }
 

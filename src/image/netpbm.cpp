@@ -1,9 +1,9 @@
 #include "image/netpbm.h"
 
-#include <charconv>
 #include <cstdio>
 #include <utility>
 
+#include "core/parse_number.h"
 #include "edgewise/contract.h"
 
 namespace edgewise::netpbm {
@@ -37,17 +37,12 @@ void check_pixels(const std::filesystem::path& path, int width, int height, std:
                                std::to_string(height));
 }
 
-Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_view kinds)
+Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_view magics)
     : path_(path), file_(std::move(file)) {
-  const bool is_p = file_.stream->get() == 'P';
-  if (const int kind = file_.stream->get();
-      is_p && kind > 0 && kinds.find(static_cast<char>(kind)) != kinds.npos)
-    kind_ = static_cast<char>(kind), end_ = next();
-  if (is_blank(end_)) return;
-  std::string wanted;
-  for (const char kind : kinds)
-    wanted += (wanted.empty() ? "P" : kind == kinds.back() ? " or P" : ", P") + std::string(1, kind);
-  throw file_error(path_, "does not start with " + wanted);
+  std::string magic(2, '\0');
+  file_.stream->read(magic.data(), 2);
+  if (magic[0] == 'P' && magics.find(magic) != magics.npos) kind_ = magic[1], end_ = next();
+  if (!is_blank(end_)) throw file_error(path_, "does not start with " + std::string(magics));
 }
 
 // The next character. A comment counts as the line end behind it, even if it begins inside a word.
@@ -78,11 +73,9 @@ std::string Reader::word() {
 
 std::uint64_t Reader::integer(const char* noun) {
   const std::string text = word();
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw file_error(path_, "malformed: '" + text + "' is not a " + noun);
-  return value;
+  const auto value = parsed<std::uint64_t>(text);
+  if (!value) throw file_error(path_, "malformed: '" + text + "' is not a " + noun);
+  return *value;
 }
 
 Size Reader::size() {

@@ -28,10 +28,10 @@ void check_pixels(const std::filesystem::path& path, int width, int height, std:
 // long.
 class Reader {
  public:
-  // The file must start with P and one of these.
-  Reader(const std::filesystem::path& path, InputFile file, std::string_view kinds);
+  // The file must start with one of these: "Pf or PF".
+  Reader(const std::filesystem::path& path, InputFile file, std::string_view magics);
 
-  char kind() const { return kind_; }
+  char kind() const { return kind_; }  // the magic's second character
   std::string word();
   std::uint64_t integer(const char* noun = "size");
   Size size();

@@ -17,18 +17,6 @@
 
 namespace edgewise {
 
-namespace {
-
-double read_scale(const std::filesystem::path& path, netpbm::Reader& reader) {
-  const std::string text = reader.word();
-  const double scale = parse_number(text);
-  if (!std::isfinite(scale) || scale == 0.0)
-    throw file_error(path, "malformed header: '" + text + "' is not a scale");
-  return scale;
-}
-
-}  // namespace
-
 DepthMap to_depth_map(const ConstFrameView& frame) {
   const DefaultFloatState state;
   DepthMap map{frame.width, frame.height, {}};
@@ -47,10 +35,12 @@ void write_pfm(std::ostream& out, const DepthMap& map) {
 }
 
 FloatMap read_pfm(const std::filesystem::path& path, InputFile file) {
-  netpbm::Reader reader(path, std::move(file), "fF");
+  netpbm::Reader reader(path, std::move(file), "Pf or PF");
   const netpbm::Size size = reader.size();
-  const double scale = read_scale(path, reader);
-
+  const std::string text = reader.word();
+  const double scale = parse_number(text);
+  if (!std::isfinite(scale) || scale == 0.0)
+    throw file_error(path, "malformed header: '" + text + "' is not a scale");
   const std::size_t channels = reader.kind() == 'f' ? 1 : 3;
   FloatMap map{size.width, size.height, static_cast<int>(channels),
                reader.samples<float>(size.pixels() * channels)};

@@ -8,21 +8,6 @@
 
 namespace edgewise {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-// A sample as 16 bits. Samples of up to 8 bits keep their ratio to 255.
-std::uint16_t scaled(const fs::path& path, std::uint64_t sample, std::uint32_t maximum) {
-  if (sample > maximum)
-    throw file_error(path, "has a sample of " + std::to_string(sample) + ", more than its maximum of " +
-                               std::to_string(maximum));
-  const std::uint32_t full = maximum > 255 ? 65535 : 255;
-  return static_cast<std::uint16_t>((sample * full + maximum / 2) / maximum * (65535 / full));
-}
-
-}  // namespace
-
 Image to_image(const ConstFrameView& frame) {
   if (frame.payload == nullptr) throw std::invalid_argument("a frame without payloads is no picture");
   Image image{frame.width, frame.height, {}};
@@ -51,12 +36,11 @@ void write_ppm(std::ostream& out, const Image& image) {
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-Samples read_ppm(const fs::path& path, InputFile file) {
-  netpbm::Reader reader(path, std::move(file), "2356");
+Samples read_ppm(const std::filesystem::path& path, InputFile file) {
+  netpbm::Reader reader(path, std::move(file), "P2, P3, P5 or P6");
   const netpbm::Size size = reader.size();
-  const std::uint64_t largest = reader.integer("maximum");
-  if (largest < 1 || largest > 65535) throw file_error(path, "the maximum must be 1 to 65535");
-  const auto maximum = static_cast<std::uint32_t>(largest);
+  const std::uint64_t maximum = reader.integer("maximum");
+  if (maximum < 1 || maximum > 65535) throw file_error(path, "the maximum must be 1 to 65535");
   const bool plain = reader.is_plain(), grey = reader.kind() == '2' || reader.kind() == '5';
   Samples image{size.width, size.height, maximum > 255, grey, {}};
   const std::size_t channels = grey ? 1 : 3, width = image.deep ? 2 : 1;
@@ -65,12 +49,16 @@ Samples read_ppm(const fs::path& path, InputFile file) {
     reader.begin_plain(size.pixels() * channels);
   else
     bytes = reader.samples<unsigned char>(size.pixels() * channels * width);
+  // As 16 bits. Samples of up to 8 bits keep their ratio to 255.
+  const std::uint32_t full = image.deep ? 65535 : 255;
   const auto sample = [&](std::size_t i) {
-    return scaled(path,
-                  plain        ? reader.integer("sample")
-                  : image.deep ? bytes[2 * i] * 256u + bytes[2 * i + 1]
-                               : bytes[i],
-                  maximum);
+    const std::uint64_t value = plain        ? reader.integer("sample")
+                                : image.deep ? bytes[2 * i] * 256u + bytes[2 * i + 1]
+                                             : bytes[i];
+    if (value > maximum)
+      throw file_error(path, "has a sample of " + std::to_string(value) + ", more than its maximum of " +
+                                 std::to_string(maximum));
+    return static_cast<std::uint16_t>((value * full + maximum / 2) / maximum * (65535 / full));
   };
   image.pixels.reserve(size.pixels());
   for (std::size_t i = 0; i < channels * size.pixels(); i += channels) {

@@ -72,6 +72,19 @@ template <typename T>
 Array<T> as_array(const std::vector<T>& values) {
   return Array<T>(static_cast<py::ssize_t>(values.size()), values.data());
 }
+template <typename T>
+Array<T> as_array(const std::vector<glm::vec<3, T>>& rows) {
+  return Array<T>({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}},
+                  reinterpret_cast<const T*>(rows.data()));
+}
+
+// convert(value) of each.
+template <typename Values, typename Convert>
+py::list list_of(const Values& values, Convert&& convert) {
+  py::list all;
+  for (const auto& value : values) all.append(convert(value));
+  return all;
+}
 
 // One camera per view; none for a stream.
 inline std::vector<CameraMatrices> cameras_of(const Matrix& views, const Matrix& projections) {

@@ -17,11 +17,6 @@ using From = std::variant<Path, Words, Shorts, Floats>;  // Words: colours, Shor
 
 // What the reader of a file warns of.
 using Notes = std::vector<std::string>;
-py::list texts_of(const Notes& notes) {
-  py::list texts;
-  for (const std::string& note : notes) texts.append(text_of(note));
-  return texts;
-}
 
 // An Image, a Grey16 or a DepthMap.
 template <typename Of, typename Pixel>
@@ -76,7 +71,7 @@ py::tuple diff(const From& a_from, const From& b_from, const std::optional<From>
       d.count == 0 ? py::object(py::none()) : py::object(py::make_tuple(d.first_x, d.first_y));
   return py::make_tuple(d.count, d.largest, d.scale, first, d.masked, d.masked_count,
                         as_array(d.picture.pixels, d.picture.width, d.picture.height), d.alpha_count,
-                        texts_of(notes));
+                        list_of(notes, text_of));
 }
 
 // 16-bit grey stays what it is.
@@ -90,36 +85,31 @@ py::tuple read_colours(const Path& path) {
   });
   return std::visit(
       [&](const auto& read) {
-        return py::make_tuple(as_array(read.pixels, read.width, read.height), texts_of(notes));
+        return py::make_tuple(as_array(read.pixels, read.width, read.height), list_of(notes, text_of));
       },
       image);
 }
 
 template <typename Of, typename Pixel>
-void write_pixels(void (*write)(const Path&, const Of&), const Path& path, const Array<Pixel>& pixels,
-                  const char* name) {
-  const auto image = image_of<Of>(pixels, name);
-  with_file_only([&] { write(path, image); });
+auto writer(void (*write)(const Path&, const Of&), const char* name) {
+  return [=](const Path& path, const Array<Pixel>& pixels) {
+    const auto image = image_of<Of>(pixels, name);
+    with_file_only([&] { write(path, image); });
+  };
 }
 
 }  // namespace
 
 void define_images(py::module_& m) {
   m.def("read_image", read_colours);
-  m.def("write_colours", [](const Path& path, const Words& colours) {
-    write_pixels<Image>(write_image, path, colours, "colours");
-  });
-  m.def("write_grey16", [](const Path& path, const Shorts& grey) {
-    write_pixels<Grey16>(write_grey16, path, grey, "16-bit grey");
-  });
+  m.def("write_colours", writer<Image, std::uint32_t>(write_image, "colours"));
+  m.def("write_grey16", writer<Grey16, std::uint16_t>(write_grey16, "16-bit grey"));
+  m.def("write_pfm", writer<DepthMap, float>(write_pfm, "a depth map"));
   m.def("read_pfm", [](const Path& path) {
     const FloatMap map = with_file_only([&] { return read_pfm(path, open_input(path)); });
     std::vector<py::ssize_t> shape{map.height, map.width};
     if (map.channels != 1) shape.push_back(map.channels);
     return Floats(shape, map.values.data());
-  });
-  m.def("write_pfm", [](const Path& path, const Floats& depth) {
-    write_pixels<DepthMap>(write_pfm, path, depth, "a depth map");
   });
   m.def("diff", diff);
 }

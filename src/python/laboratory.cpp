@@ -24,19 +24,18 @@ py::object as_tuple(const std::optional<lab::Witness>& w) {
 }
 
 py::list as_list(const std::vector<lab::Question>& questions) {
-  py::list all;
-  for (const lab::Question& q : questions) {
-    py::list answers;
-    for (const lab::Answer& a : q.answers)
-      answers.append(py::make_tuple(a.name, as_tuple(a.witness), a.wrong_px));
+  return list_of(questions, [](const lab::Question& q) {
+    const auto answer = [](const lab::Answer& a) {
+      return py::make_tuple(a.name, as_tuple(a.witness), a.wrong_px);
+    };
     const auto text = [](bool there, const std::string& s) -> py::object {
       return there ? py::object(py::str(s)) : py::none();
     };
     const lab::Answer* const needed = q.needed();
-    all.append(py::make_tuple(q.name, text(needed != nullptr, needed != nullptr ? needed->name : ""),
-                              text(!q.proof.empty(), q.proof), q.trials, q.trial, q.error, answers));
-  }
-  return all;
+    return py::make_tuple(q.name, text(needed != nullptr, needed != nullptr ? needed->name : ""),
+                          text(!q.proof.empty(), q.proof), q.trials, q.trial, q.error,
+                          list_of(q.answers, answer));
+  });
 }
 
 py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int width, int height,

@@ -1,10 +1,12 @@
 // The extension behind edgewise/__init__.py, which documents it and converts its arguments' types.
 #include <cstdint>
+#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,7 +24,6 @@
 #include "frontend/scene_edits.h"
 #include "frontend/submission.h"
 #include "python/drawn.h"
-#include "python/state.h"
 #include "raster/checks.h"
 
 namespace edgewise::python {
@@ -40,19 +41,20 @@ std::vector<std::size_t> first_ids_of(const Drawable& drawable) {
 
 // Counts of pixels by view, as count(frame, drawable) finds them.
 template <typename Count>
-Words pixels_per(Drawn& self, const std::optional<py::array>& payload, const py::array& depth,
-                 Count&& count) {
-  const Frames frames(payload, depth, false);
-  std::vector<std::uint32_t> all;
-  std::size_t kinds = 0;
-  self.use([&](const Drawable& drawable) {
-    for (std::size_t i = 0; i < frames.views; ++i) {
-      const auto counts = count(frames[i], drawable);
-      kinds = counts.size();
-      all.insert(all.end(), counts.begin(), counts.end());
-    }
-  });
-  return Words(frames.shape({static_cast<py::ssize_t>(kinds)}), all.data());
+auto pixels_per(Count count) {
+  return [count](Drawn& self, const std::optional<py::array>& payload, const py::array& depth) {
+    const Frames frames(payload, depth, false);
+    std::vector<std::uint32_t> all;
+    std::size_t kinds = 0;
+    self.use([&](const Drawable& drawable) {
+      for (std::size_t i = 0; i < frames.views; ++i) {
+        const auto counts = count(frames[i], drawable);
+        kinds = counts.size();
+        all.insert(all.end(), counts.begin(), counts.end());
+      }
+    });
+    return Words(frames.shape({static_cast<py::ssize_t>(kinds)}), all.data());
+  };
 }
 
 // A vertex of an array of float or double.
@@ -61,14 +63,68 @@ using Point = glm::vec<3, Coordinate>;
 
 template <typename Coordinate>
 std::size_t add_arrays(Drawn& self, const Array<Coordinate>& positions, const Words& triangles,
-                       const std::optional<Words>& colours, bool two_sided) {
+                       const std::optional<Words>& colours, const std::optional<Array<std::uint8_t>>& flags,
+                       const std::optional<Floats>& normals, const std::optional<Matrix>& origin,
+                       const std::vector<std::tuple<std::string, std::size_t, std::size_t>>& parts) {
   check(positions, "positions", {-1, 3}), check(triangles, "triangles", {-1, 3});
-  if (colours) check(*colours, "colours", {triangles.shape(0)});
+  const py::ssize_t count = triangles.shape(0);
+  if (colours) check(*colours, "colours", {count});
+  if (flags) check(*flags, "flags", {count});
+  if (normals) check(*normals, "normals", {count, 3});
+  if (origin) check(*origin, "origin", {3});
   Mesh mesh{.positions = {}, .triangles = copied<glm::uvec3>(triangles), .colours = {}};
   set_vertices(mesh, copied<Point<Coordinate>>(positions));
   if (colours) mesh.colours = copied<std::uint32_t>(*colours);
-  if (two_sided) mesh.flags.assign(mesh.triangles.size(), kTwoSided);
-  return self.use_scene([&](Scene& scene) { return add_mesh(scene, std::move(mesh)); });
+  if (flags) mesh.flags = copied<std::uint8_t>(*flags);
+  if (normals) mesh.normals = copied<glm::vec3>(*normals);
+  if (origin) mesh.origin = glm::make_vec3(origin->data());
+  return self.use_scene([&](Scene& scene) {
+    const std::size_t added = add_mesh(scene, std::move(mesh));
+    for (const auto& [name, first, in_part] : parts) add_part(scene, added, {name, first, in_part});
+    return added;
+  });
+}
+
+// What add_arrays() takes, by mesh.
+py::list arrays_of(const Scene& scene) {
+  const auto or_none = [](const auto& values) {
+    return values.empty() ? py::object(py::none()) : py::object(as_array(values));
+  };
+  const auto part_of = [](const MeshPart& part) {
+    return py::make_tuple(py::bytes(part.name), part.first, part.count);
+  };
+  return list_of(scene.meshes, [&](const Mesh& mesh) {
+    return py::make_tuple(as_array(mesh.positions), as_array(mesh.triangles), as_array(mesh.colours),
+                          or_none(mesh.flags), or_none(mesh.normals), Matrix(3, glm::value_ptr(mesh.origin)),
+                          list_of(mesh.parts, part_of));
+  });
+}
+
+std::unique_ptr<Drawn> stream(const Floats& vertices, const std::optional<Words>& colours, int width,
+                              int height) {
+  check(vertices, "vertices", {-1, 3, 3});
+  if (colours) check(*colours, "colours", {vertices.shape(0)});
+  TriangleStream made{width, height, {}};
+  made.triangles.resize(static_cast<std::size_t>(vertices.shape(0)));
+  for (std::size_t i = 0; i < made.triangles.size(); ++i) {
+    StreamTriangle& t = made.triangles[i];
+    std::memcpy(t.vertex, vertices.data() + 9 * i, sizeof t.vertex);
+    t.colour = colours ? colours->data()[i] : kLightGrey;
+  }
+  return drawn(std::move(made));
+}
+
+// What stream() takes.
+py::tuple arrays_of(const TriangleStream& stream) {
+  const auto count = static_cast<py::ssize_t>(stream.triangles.size());
+  Floats vertices({count, py::ssize_t{3}, py::ssize_t{3}});
+  Words colours(count);
+  for (std::size_t i = 0; i < stream.triangles.size(); ++i) {
+    const StreamTriangle& t = stream.triangles[i];
+    std::memcpy(vertices.mutable_data() + 9 * i, t.vertex, sizeof t.vertex);
+    colours.mutable_data()[i] = t.colour;
+  }
+  return py::make_tuple(vertices, colours, stream.width, stream.height);
 }
 
 template <typename Coordinate>
@@ -91,9 +147,8 @@ PYBIND11_MODULE(_native, m) {
   m.attr("DEPTH_RANGE") = contract::kDepthRange;
   m.attr("DEPTH_CLEAR") = contract::kDepthClear;
   m.attr("MAX_SIDE") = contract::kMaxImageSide;
-  py::list names;
-  for (const BackendInfo& backend : backends()) names.append(std::string(backend.name));
-  m.attr("BACKENDS") = names;
+  m.attr("BACKENDS") =
+      list_of(backends(), [](const BackendInfo& backend) { return py::str(std::string(backend.name)); });
   m.attr("TWO_SIDED") = kTwoSided;
   m.attr("PARALLEL_FOR") = py::capsule(&detail::parallel_for);
 
@@ -128,23 +183,51 @@ PYBIND11_MODULE(_native, m) {
       const Released released;
       for (std::size_t i = 0; i < frames.views; ++i) views.push_back(visible_triangles(frames[i]));
     }
-    py::list arrays;
-    for (const auto& ids : views) arrays.append(as_array(ids));
-    return arrays;
+    return list_of(views, [](const auto& ids) { return as_array(ids); });
   });
 
   m.def("read_obj", [](const Path& path) {
     ObjReport report;
     auto read = with_file_only([&] { return drawn(read_obj(path, {}, &report)); });
-    py::list warnings;
-    for (const std::string& warning : report.warnings) warnings.append(text_of(warning));
-    return std::pair(std::move(read), warnings);
+    return std::pair(std::move(read), list_of(report.warnings, text_of));
   });
   m.def("read_tri", [](const Path& path) { return with_file_only([&] { return drawn(read_tri(path)); }); });
-  m.def("stream", stream);
 
-  py::class_<Drawn> drawn_class(m, "Drawable");
-  drawn_class.def(py::init([] { return drawn(Scene{}); }))
+  py::class_<Drawn>(m, "Drawable")
+      .def(py::init([] { return drawn(Scene{}); }))
+      .def(py::init(&stream))
+      .def("__deepcopy__",
+           [](Drawn& self, const py::dict&) {
+             return drawn(self.use([](const Drawable& drawable) { return drawable; }));
+           })
+      // The arrays of copies: none may be made while other threads wait for the scene.
+      .def("arrays",
+           [](Drawn& self) -> py::object {
+             const Drawable copy = self.use([](const Drawable& drawable) { return drawable; });
+             return std::visit([](const auto& held) -> py::object { return arrays_of(held); }, copy);
+           })
+      .def("triangles",  // by mesh, after the number of its vertices
+           [](Drawn& self) {
+             std::vector<std::pair<std::size_t, std::vector<glm::uvec3>>> held;
+             self.use_scene([&](const Scene& scene) {
+               for (const Mesh& mesh : scene.meshes) held.emplace_back(mesh.positions.size(), mesh.triangles);
+             });
+             return list_of(
+                 held, [](const auto& mesh) { return py::make_tuple(mesh.first, as_array(mesh.second)); });
+           })
+      .def("instances",
+           [](Drawn& self) {
+             const auto held = self.use_scene([](const Scene& scene) { return scene.instances; });
+             const DefaultFloatState state;
+             return list_of(held, [](const Instance& instance) {  // draws use this matrix, too
+               return py::make_tuple(instance.mesh, rows_of(model_matrix({}, instance)));
+             });
+           })
+      .def("light",
+           [](Drawn& self) {
+             const glm::vec3 light = self.use_scene([](const Scene& scene) { return scene.to_light; });
+             return Floats(3, glm::value_ptr(light));
+           })
       .def("add_mesh", add_arrays<float>)
       .def("add_mesh", add_arrays<double>)
       .def("add_instance",
@@ -184,8 +267,8 @@ PYBIND11_MODULE(_native, m) {
       .def("size",
            [](Drawn& self) {
              return self.use([](const Drawable& drawable) {
-               const auto& triangles = std::get<TriangleStream>(drawable);
-               return std::pair(triangles.width, triangles.height);
+               const auto& held = std::get<TriangleStream>(drawable);
+               return std::pair(held.width, held.height);
              });
            })
       .def("write_tri",
@@ -206,24 +289,15 @@ PYBIND11_MODULE(_native, m) {
                all[text_of(name)] = as_array(ids);
              return all;
            })
-      .def("pixels_per_triangle",
-           [](Drawn& self, const OptionalArray& payload, const py::array& depth) {
-             return pixels_per(self, payload, depth, [](const FrameView& ids, const Drawable& drawable) {
-               return pixels_per_triangle(ids, first_ids_of(drawable).back());
-             });
-           })
-      .def("pixels_per_instance",
-           [](Drawn& self, const OptionalArray& payload, const py::array& depth) {
-             return pixels_per(self, payload, depth, [](const FrameView& ids, const Drawable& drawable) {
-               return pixels_per_instance(ids, std::get<Scene>(drawable));
-             });
-           })
-      .def("pixels_per_mesh",
-           [](Drawn& self, const OptionalArray& payload, const py::array& depth) {
-             return pixels_per(self, payload, depth, [](const FrameView& ids, const Drawable& drawable) {
-               return pixels_per_mesh(ids, std::get<Scene>(drawable));
-             });
-           })
+      .def("pixels_per_triangle", pixels_per([](const FrameView& ids, const Drawable& drawable) {
+             return pixels_per_triangle(ids, first_ids_of(drawable).back());
+           }))
+      .def("pixels_per_instance", pixels_per([](const FrameView& ids, const Drawable& drawable) {
+             return pixels_per_instance(ids, std::get<Scene>(drawable));
+           }))
+      .def("pixels_per_mesh", pixels_per([](const FrameView& ids, const Drawable& drawable) {
+             return pixels_per_mesh(ids, std::get<Scene>(drawable));
+           }))
       .def("visible",
            [](Drawn& self, const Matrix& low, const Matrix& high, const Matrix& views,
               const Matrix& projections, const py::array& depth) {
@@ -244,7 +318,6 @@ PYBIND11_MODULE(_native, m) {
       .def("draw", &Drawn::draw)
       .def("barycentrics", &Drawn::barycentrics);
 
-  define_state(drawn_class);
   define_images(m);
 }
 

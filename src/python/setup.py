@@ -22,16 +22,6 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE if (HERE / "src").is_dir() else HERE.parents[1]
 
 
-def build_folder():
-    if "EDGEWISE_BUILD" in os.environ:
-        folder = Path(os.environ["EDGEWISE_BUILD"]).resolve()
-        folder.mkdir(parents=True, exist_ok=True)
-    else:
-        folder = Path(tempfile.mkdtemp(prefix="edgewise-"))
-        atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return str(folder)
-
-
 class CMake(build_ext):
     def build_extension(self, ext):
         build = Path(self.build_temp).resolve()
@@ -53,7 +43,11 @@ class Archive(sdist):
 
 
 version = re.search(r"project\(edgewise VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
-folder = build_folder()  # nothing is written into the source tree
+folder = os.environ.get("EDGEWISE_BUILD")  # nothing is written into the source tree
+if folder is None:
+    folder = tempfile.mkdtemp(prefix="edgewise-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+os.makedirs(folder, exist_ok=True)
 setup(version=version, license="MIT", packages=["edgewise"], package_data={"edgewise": ["py.typed", "*.pyi"]},
       package_dir={"edgewise": os.path.relpath(ROOT / "src" / "python" / "edgewise", HERE)},
       ext_modules=[Extension("edgewise._native", [])],  # and edgewise._lab, if its packages are there

@@ -17,13 +17,9 @@ namespace {
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 int cores_in_affinity_mask() {
-  constexpr std::size_t kMostSets = 64;  // 65,536 cores
-  for (std::size_t sets = 1; sets <= kMostSets; sets *= 2) {
-    std::vector<cpu_set_t> mask(sets);
-    if (sched_getaffinity(0, sets * sizeof(cpu_set_t), mask.data()) == 0)
-      return CPU_COUNT_S(sets * sizeof(cpu_set_t), mask.data());
-  }
-  return machine_cores();
+  std::vector<cpu_set_t> mask(64);  // 65,536 cores
+  const std::size_t bytes = mask.size() * sizeof(cpu_set_t);
+  return sched_getaffinity(0, bytes, mask.data()) == 0 ? CPU_COUNT_S(bytes, mask.data()) : machine_cores();
 }
 
 // `period` is a number in the first file, after the quota, or else in the second.

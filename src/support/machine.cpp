@@ -10,10 +10,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -70,21 +68,15 @@ std::map<std::string, std::string> read_pairs(const std::string& path, char sepa
   return pairs;
 }
 
-std::string value_of(const std::map<std::string, std::string>& pairs, const std::string& key) {
-  const auto found = pairs.find(key);
-  return found == pairs.end() ? std::string() : found->second;
-}
-
 // The CPU features that affect the choice and speed of kernels.
 nlohmann::json cpu_features() {
   constexpr std::array kRelevant = {"sse4_1",   "sse4_2",   "avx",         "f16c",        "fma",
                                     "bmi2",     "avx2",     "avx512f",     "avx512bw",    "avx512dq",
                                     "avx512vl", "avx512cd", "avx512_vnni", "avx512_bf16", "gfni"};
-  std::istringstream words(value_of(read_pairs("/proc/cpuinfo", ':'), "flags"));
-  const std::set<std::string> has{std::istream_iterator<std::string>(words), {}};
+  const std::string flags = ' ' + read_pairs("/proc/cpuinfo", ':')["flags"] + ' ';
   nlohmann::json features = nlohmann::json::array();
-  for (const char* name : kRelevant)
-    if (has.contains(name)) features.push_back(name);
+  for (const std::string name : kRelevant)
+    if (flags.find(' ' + name + ' ') != std::string::npos) features.push_back(name);
   return features;
 }
 
@@ -149,12 +141,12 @@ nlohmann::json packages() {
 }  // namespace
 
 std::string cpu_model(const std::string& cpuinfo) {
-  const auto pairs = read_pairs(cpuinfo, ':');
-  std::string model = value_of(pairs, "model name");
+  auto pairs = read_pairs(cpuinfo, ':');
+  std::string model = pairs["model name"];
   for (const std::string_view filler : {"(R)", "(TM)", " CPU", " Processor"})
     for (std::size_t at; (at = model.find(filler)) != std::string::npos;) model.erase(at, filler.size());
-  const std::string family = value_of(pairs, "cpu family"), number = value_of(pairs, "model");
-  const std::string implementer = value_of(pairs, "CPU implementer"), part = value_of(pairs, "CPU part");
+  const std::string family = pairs["cpu family"], number = pairs["model"];
+  const std::string implementer = pairs["CPU implementer"], part = pairs["CPU part"];
   if (model.empty())
     return implementer.empty() ? kUnknown : fmt::format("ARM (implementer {}, part {})", implementer, part);
   return family.empty() || number.empty() ? model
@@ -171,7 +163,7 @@ nlohmann::json machine_description() {
   if (!max_khz.empty()) json["cpu_mhz_max"] = std::strtol(max_khz.c_str(), nullptr, 10) / 1000;
   json["caches"] = caches();
   json["memory_gib"] = memory_gib();
-  const std::string os = value_of(read_pairs("/etc/os-release", '='), "PRETTY_NAME");
+  const std::string os = read_pairs("/etc/os-release", '=')["PRETTY_NAME"];
   json["os"] = os.empty() ? kUnknown : os;
   json["kernel"] = kernel();
   json["compiler"] = compiler();

@@ -5,14 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/nearest_name.h"
+#include "core/parse_number.h"
 #include "edgewise/contract.h"
 #include "support/cores.h"
 
@@ -23,15 +24,6 @@ namespace {
 constexpr double kMostDistance = 1e30;  // world units; bound of the near and far planes
 constexpr double kLongestTime = 1e6;    // s, 11 days
 constexpr double kSmallest = 1e-6;      // what "more than zero" means on the command line
-
-// The number that the whole text is; none if it isn't one.
-template <typename T>
-std::optional<T> parsed(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 [[noreturn]] void reject(std::string_view option, std::string_view text, std::string_view expected) {
   throw std::invalid_argument(fmt::format("{}: '{}' is not {}", option, text, expected));
@@ -100,28 +92,15 @@ Size parse_size(std::string_view option, std::string_view text) {
   reject(option, text, fmt::format("WIDTHxHEIGHT with sides of 1 to {} pixels", contract::kMaxImageSide));
 }
 
-double parse_number(std::string_view option, std::string_view text, double min, double max) {
-  const auto value = parsed<double>(text);
-  // NaN fails too.
-  if (!value || !(*value >= min && *value <= max))
-    reject(option, text, fmt::format("a number from {} to {}", min, max));
-  return *value;
+template <typename T>
+T parse_number(std::string_view option, std::string_view text, T min, T max) {
+  const auto value = parsed<T>(text);
+  if (value && *value >= min && *value <= max) return *value;  // not NaN
+  const char* const kind = std::is_integral_v<T> ? "whole number" : "number";
+  reject(option, text, fmt::format("a {} from {} to {}", kind, min, max));
 }
-
-int parse_integer(std::string_view option, std::string_view text, int min, int max) {
-  const auto value = parsed<int>(text);
-  if (!value || *value < min || *value > max)
-    reject(option, text, fmt::format("a whole number from {} to {}", min, max));
-  return *value;
-}
-
-std::uint64_t parse_count(std::string_view option, std::string_view text, std::uint64_t min,
-                          std::uint64_t max) {
-  const auto value = parsed<std::uint64_t>(text);
-  if (!value || *value < min || *value > max)
-    reject(option, text, fmt::format("a whole number from {} to {}", min, max));
-  return *value;
-}
+template int parse_number(std::string_view, std::string_view, int, int);
+template std::uint64_t parse_number(std::string_view, std::string_view, std::uint64_t, std::uint64_t);
 
 double parse_duration(std::string_view option, std::string_view text) {
   constexpr std::pair<char, double> kUnits[] = {{'s', 1.0}, {'m', 60.0}, {'h', 3600.0}};
@@ -168,7 +147,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, std::optiona
 CLI::Option* add_integer(CLI::App& command, const std::string& name, int& value, int min, int max,
                          const std::string& help) {
   return add_parsed(command, name, "N", help, [&value, name, min, max](const std::string& text) {
-    value = parse_integer(name, text, min, max);
+    value = parse_number(name, text, min, max);
   });
 }
 
@@ -206,15 +185,14 @@ void SceneOptions::add_to(CLI::App& command) {
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time) {
   const Size size = options.size.value_or(kDefaultSize);
   const SceneRequest request{size.width, size.height, static_cast<float>(time), options.scale.value_or(1.0)};
-  Shot shot{load_source(name_or_path, request, options.fit, options.recentre), {}};
+  Shot shot{load_source(name_or_path, request, options.fit, options.recentre),
+            {.width = size.width, .height = size.height}};
   Source& source = shot.source;
 
   if (options.recentre && (source.stream || source.built_in != nullptr))
     throw std::invalid_argument("--recentre: '" + source.name + "' is not a mesh file");
   if (options.scale && !(source.built_in != nullptr && source.built_in->scalable))
     throw std::invalid_argument("--scale: '" + source.name + "' has a fixed number of triangles");
-  shot.frontend.width = size.width;
-  shot.frontend.height = size.height;
   if (auto* stream = std::get_if<TriangleStream>(&source.drawable)) {
     if (moves_camera(options))
       throw std::invalid_argument("'" + source.name + "' is a stream of screen triangles and has no camera");
@@ -250,10 +228,6 @@ void MotionOptions::for_each_frame(const std::string& name_or_path, const SceneO
 
 int default_threads() {
   return std::min(usable_cores(), kMaxThreads);
-}
-
-ExecutionOptions::ExecutionOptions() {
-  execution.threads = default_threads();
 }
 
 void ExecutionOptions::add_to(CLI::App& command) {

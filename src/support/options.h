@@ -35,10 +35,8 @@ std::string unknown_option(std::string_view word, const std::vector<std::string>
                            std::string_view command);
 
 Size parse_size(std::string_view option, std::string_view text);
-double parse_number(std::string_view option, std::string_view text, double min, double max);
-int parse_integer(std::string_view option, std::string_view text, int min, int max);
-std::uint64_t parse_count(std::string_view option, std::string_view text, std::uint64_t min,
-                          std::uint64_t max);
+template <typename T>  // int or std::uint64_t
+T parse_number(std::string_view option, std::string_view text, T min, T max);
 double parse_duration(std::string_view option, std::string_view text);  // "90s", "20m", "2h" → s
 glm::dvec3 parse_vector(std::string_view option, std::string_view text);
 
@@ -87,8 +85,7 @@ int default_threads();  // the number of usable cores; 1 … kMaxThreads
 
 // Options for drawing: threads, SIMD target, tile size.
 struct ExecutionOptions {
-  ExecutionOptions();
-  Execution execution;
+  Execution execution{.threads = default_threads()};
 
   void add_to(CLI::App& command);
 };

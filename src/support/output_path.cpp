@@ -17,6 +17,7 @@
 #include "core/input_file.h"
 #include "core/nearest_name.h"
 #include "support/console.h"
+#include "support/options.h"
 #include "support/printable.h"
 #include "support/source.h"
 
@@ -59,14 +60,12 @@ std::optional<FileId> id_of(const fs::path& path) {
 void add_format(CLI::App& command, std::optional<Format>& format, const std::vector<Format>& choices) {
   std::vector<std::string_view> names;
   for (const Format choice : choices) names.push_back(name_of(choice));
-  command
-      .add_option_function<std::string>(
-          "--format",
-          [&format, choices](const std::string& text) {
-            format = find_named("format", text, std::span(choices), [](Format one) { return name_of(one); });
-          },
-          fmt::format("Picture format for - and for folders: {} (png)", fmt::join(names, ", ")))
-      ->type_name("FORMAT");
+  add_parsed(command, "--format", "FORMAT",
+             fmt::format("Picture format for - and for folders: {} (png)", fmt::join(names, ", ")),
+             [&format, choices](const std::string& text) {
+               format =
+                   find_named("format", text, std::span(choices), [](Format one) { return name_of(one); });
+             });
 }
 
 OutputFile output_file(const std::string& option, const std::string& text, OutputKind kind,

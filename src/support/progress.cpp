@@ -24,10 +24,6 @@ volatile std::sig_atomic_t on_screen = 0;
 
 Progress::Progress() : terminal_(moves_cursor(STDERR_FILENO)) {}
 
-Progress::~Progress() {
-  erase();
-}
-
 void Progress::show(std::optional<double> fraction, std::string_view label) {
   if (!terminal_) return;
   const int percent = fraction ? static_cast<int>(100.0 * std::clamp(*fraction, 0.0, 1.0)) : -1;

@@ -11,7 +11,7 @@ namespace edgewise::tools {
 class Progress {
  public:
   Progress();
-  ~Progress();  // erases the bar
+  ~Progress() { erase(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 

@@ -1,9 +1,9 @@
 #include "viewer/keys.h"
 
-#include <charconv>
 #include <stdexcept>
 #include <utility>
 
+#include "core/parse_number.h"
 #include "lab/choice.h"
 
 namespace edgewise::viewer {
@@ -23,12 +23,10 @@ Stroke parse_name(std::string_view name) {
   for (const auto& [known, key] : kNames)
     if (known == name) return key;
   if (lab::Choice unused; put(name, unused)) return Named{std::string(name)};
-  double seconds = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seconds);
-  if (error != std::errc{} || end != name.data() + name.size() || !(seconds >= 0 && seconds <= kLongestWait))
-    throw std::invalid_argument("--keys: <" + std::string(name) +
-                                "> is not a key, a method or a time in seconds");
-  return seconds;
+  if (const auto seconds = parsed<double>(name); seconds && *seconds >= 0 && *seconds <= kLongestWait)
+    return *seconds;
+  throw std::invalid_argument("--keys: <" + std::string(name) +
+                              "> is not a key, a method or a time in seconds");
 }
 
 }  // namespace

@@ -57,13 +57,10 @@ void expect_refused(const std::function<void()>& action) {
   EXPECT_EXIT(exit_as_refused(action), ::testing::ExitedWithCode(0), "");
 }
 
-TEST(LimitsDeathTest, TheFrontEndRefusesTooManyTrianglesAndThreads) {
+TEST(LimitsDeathTest, TheFrontEndAndObjectsRefuseTooManyTrianglesAndThreads) {
   expect_refused([] { Frontend().run(too_many(), {}); });
   expect_refused([] { Frontend().run(Scene{}, {}, {.threads = kMaxThreads + 1}); });
   expect_refused([] { Frontend().run(Scene{}, {.width = contract::kMaxImageSide + 1}); });
-}
-
-TEST(LimitsDeathTest, ObjectsOfTooManyTrianglesAreRefused) {
   expect_refused([] {
     Scene scene = too_many();
     scene.instances.resize(1);

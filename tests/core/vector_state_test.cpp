@@ -53,13 +53,10 @@ TEST(VectorState, BackendsLeaveUpperHalvesUnused) {
   for (const BackendInfo& info : backends())
     for (const SimdTarget target : supported_targets())
       for (const auto& triangles : {everywhere, in_a_corner, std::vector<ScreenTriangle>{}}) {
-        Execution execution;
-        execution.threads = 1;
-        execution.target = target;
         Framebuffer frame(kWidth, kHeight);
         const auto backend = info.make();
         clear_upper_halves();
-        backend->draw(triangles, frame.view(), {testing::kBackground}, execution);
+        backend->draw(triangles, frame.view(), {testing::kBackground}, {.threads = 1, .target = target});
         const std::uint32_t in_use = *upper_halves_in_use();
         clear_upper_halves();
         EXPECT_EQ(in_use, 0u) << info.name << ", " << name_of(target) << ", " << triangles.size()

@@ -73,12 +73,11 @@ std::uint64_t picture(const Drawable& drawable, Payload payload = Payload::colou
   return hash_of(frame);
 }
 
-// The same mesh, camera and picture, moved to 0 in double.
-Scene moved_to_0(const Scene& far) {
-  Scene near = far;
-  near.meshes[0].origin = glm::dvec3(0.0);
-  near.camera.position -= far.meshes[0].origin;
-  return near;
+void expect_bounds(const Scene& scene, const std::vector<glm::dvec3>& points, double tolerance) {
+  Bounds expected = no_box();
+  for (const glm::dvec3& point : points) extend(expected, point);
+  EXPECT_LT(glm::distance(bounds_of(scene).low, expected.low), tolerance);
+  EXPECT_LT(glm::distance(bounds_of(scene).high, expected.high), tolerance);
 }
 
 TEST(Origins, AMeshFarAwayIsDrawnAsOneNear0) {
@@ -93,20 +92,18 @@ TEST(Origins, AMeshFarAwayIsDrawnAsOneNear0) {
                   0x1p-24 * place.size)
             << "of the true point";
     far.camera = camera_at(mesh.origin, place.size);  // its difference to the origin is exact
+    expect_bounds(far, points, 0x1p-22 * place.size);
+    Scene near = far;  // the same mesh, camera and picture, moved to 0 in double
+    near.meshes[0].origin = glm::dvec3(0.0), near.camera.position -= far.meshes[0].origin;
     for (const Payload payload : {Payload::colour, Payload::id})
-      EXPECT_EQ(picture(far, payload), picture(moved_to_0(far), payload)) << place.size;
-    const Bounds box = bounds_of(far);
-    Bounds expected = no_box();
-    for (const glm::dvec3& point : points) extend(expected, point);
-    EXPECT_LT(glm::distance(box.low, expected.low), 0x1p-22 * place.size);
-    EXPECT_LT(glm::distance(box.high, expected.high), 0x1p-22 * place.size);
+      EXPECT_EQ(picture(far, payload), picture(near, payload)) << place.size;
   }
 }
 
 // Wherever an instance moves the true points to.
 TEST(Origins, MatricesApplyToTheGivenPoints) {
   for (const Place& place : kPlaces) {
-    const auto points = points_at(place);
+    auto points = points_at(place);
     Scene scene = scene_of(mesh_of(points));
     const glm::dvec3 origin = scene.meshes[0].origin;
     scene.camera = camera_at(glm::dvec3(0.0), place.size);
@@ -122,10 +119,8 @@ TEST(Origins, MatricesApplyToTheGivenPoints) {
     // A quarter turn about the world's z axis, and twice the size.
     const glm::dmat4 turned(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1);
     set_instance(scene, 0, turned);
-    Bounds expected = no_box();
-    for (const glm::dvec3& point : points) extend(expected, glm::dvec3(turned * glm::dvec4(point, 1.0)));
-    EXPECT_LT(glm::distance(bounds_of(scene).low, expected.low), 0x1p-21 * place.size);
-    EXPECT_LT(glm::distance(bounds_of(scene).high, expected.high), 0x1p-21 * place.size);
+    for (glm::dvec3& point : points) point = turned * glm::dvec4(point, 1.0);
+    expect_bounds(scene, points, 0x1p-21 * place.size);
     set_positions(scene, 0, points.size(), [&] { return std::vector<glm::vec3>(points.size()); });
     EXPECT_EQ(scene.meshes[0].origin, glm::dvec3(0.0)) << "floats are true positions, too";
   }

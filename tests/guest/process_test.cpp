@@ -66,15 +66,14 @@ std::vector<std::string> state_of_the_process() {
   using tbb::global_control;
   for (const auto limit : {global_control::max_allowed_parallelism, global_control::thread_stack_size})
     add("oneTBB's limit", global_control::active_value(limit));
-  for (int signal = 1; signal <= 64; ++signal) {
-    struct sigaction action {};
-    if (sigaction(signal, nullptr, &action) != 0) continue;  // the C library keeps it
-    add("handler of signal", signal, reinterpret_cast<std::uintptr_t>(action.sa_handler), action.sa_flags);
-  }
   sigset_t blocked;
   pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
-  for (int signal = 1; signal <= 64; ++signal)
-    add("signal is blocked", signal, sigismember(&blocked, signal));
+  for (int signal = 1; signal <= 64; ++signal) {
+    struct sigaction action {};  // stays empty for those that the C library keeps
+    sigaction(signal, nullptr, &action);
+    add("signal", signal, reinterpret_cast<std::uintptr_t>(action.sa_handler), action.sa_flags,
+        sigismember(&blocked, signal));
+  }
   lines.push_back(std::string("locale ") + std::setlocale(LC_ALL, nullptr) + " " + std::locale().name());
   for (const unsigned part : testing::float_state()) add("floats", part);
   const mode_t mask = umask(0);

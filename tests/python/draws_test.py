@@ -2,6 +2,7 @@
 import pickle
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -270,15 +271,12 @@ def test_draws_release_the_gil():
 
 
 def test_threads_may_share_a_scene():
-    drawn, frames = scene(), {}
+    drawn = scene()
     expected = [drawn.draw(camera, SIZE) for camera in CAMERAS]
 
     def work(i):
-        frames[i] = [drawn.draw(CAMERAS[i % 3], SIZE, threads=2) for _ in range(20)]
+        frames = [drawn.draw(CAMERAS[i % 3], SIZE, threads=2) for _ in range(20)]
         drawn.add_mesh(*triangles()[:2])
-    workers = [threading.Thread(target=work, args=(i,)) for i in range(6)]
-    for worker in workers:
-        worker.start()
-    for worker in workers:
-        worker.join()
-    assert all(same(frame, expected[i % 3]) for i in range(6) for frame in frames[i])
+        return all(same(frame, expected[i % 3]) for frame in frames)
+    with ThreadPoolExecutor(6) as pool:
+        assert all(pool.map(work, range(6)))

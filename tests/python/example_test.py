@@ -1,4 +1,5 @@
-"""The examples of README and of the library's README."""
+"""The examples of README and of the library's README do what they say, and pass mypy in its strictest mode."""
+import re
 import runpy
 import subprocess
 import sys
@@ -6,7 +7,8 @@ from pathlib import Path
 
 import edgewise
 
-EXAMPLES = Path(__file__).resolve().parents[1] / "consumer"
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "tests" / "consumer"
 
 
 def said(example, folder):
@@ -27,3 +29,18 @@ def test_dasks_workers_draw_what_one_process_draws(tmp_path):
     printed = said("views.py", tmp_path).split()
     view_hash, scene = runpy.run_path(str(EXAMPLES / "views.py"))["view_hash"], edgewise.Scene.read_obj(tmp_path / "mesh.obj")
     assert printed == [f"{view_hash(i, scene):016x}" for i in range(200)] and len(set(printed)) > 150
+
+
+def test_the_examples_pass_mypy(tmp_path):
+    examples = {path.stem: path.read_text() for path in EXAMPLES.glob("*.py")}
+    for readme in (ROOT / "README.md", *ROOT.glob("src/**/README.md")):
+        for block in re.findall(r"^```python\n(.*?)^```", readme.read_text(), re.MULTILINE | re.DOTALL):
+            examples[f"readme_{len(examples)}"] = block
+    assert len(examples) > 4
+    examples["wrong"] = "import edgewise\nscene = edgewise.Scene()\nscene.draw('camera', (4, 4))\nscene.light.no_such\n"
+    for name, text in examples.items():
+        (tmp_path / f"example_{name}.py").write_text(text)
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(Path(sys.prefix) / "mypy"), "."]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    errors = [line for line in done.stdout.splitlines() if "error:" in line]
+    assert len(errors) == 2 and all(line.startswith("example_wrong.py") for line in errors), done.stdout + done.stderr

@@ -1,4 +1,5 @@
-"""Edgewise beside the rest of a process: its exit, signals, other threads, progress bars, and numpy."""
+"""Edgewise beside the rest of a process: exit, signals, threads, forks, floating-point modes, progress bars, and numpy."""
+import ctypes
 import os
 import signal
 import subprocess
@@ -6,12 +7,15 @@ import sys
 import threading
 import time
 
+import numpy as np
 import pytest
 
 import edgewise
-from support import CAMERA, SIZE, same, scene, triangles
+from support import CAMERA, SIZE, same, scene, stream, triangles
 
 VIEWS = 400
+
+FOLDER = os.path.dirname(__file__)
 
 # Loops of threads that the interpreter's end interrupts.
 LOOPS = {
@@ -45,7 +49,7 @@ sys.exit(3)
 @pytest.mark.parametrize("name", LOOPS)
 def test_threads_that_draw_while_python_ends_change_nothing(name, tmp_path):
     for _ in range(3):
-        done = subprocess.run([sys.executable, "-c", PROGRAM.replace("LOOP", LOOPS[name]), __file__.rpartition("/")[0], tmp_path],
+        done = subprocess.run([sys.executable, "-c", PROGRAM.replace("LOOP", LOOPS[name]), FOLDER, tmp_path],
                               capture_output=True, text=True, check=False, timeout=60)
         assert (done.returncode, done.stdout, done.stderr) == (3, "", "")
 
@@ -63,8 +67,7 @@ def test_numpy_2_needs_pybind11_2_12(version):
 
 
 def slow_scene(count=10000):
-    positions, indices, _ = triangles(count)
-    return edgewise.Scene(positions, indices)
+    return edgewise.Scene(*triangles(count)[:2])
 
 
 class Alarm(Exception):
@@ -87,20 +90,14 @@ def views():
     signal.signal(signal.SIGALRM, before)
 
 
-# append() runs no code of Python's, which would handle the signal.
-def test_a_signal_ends_a_batch_of_draws(views):
-    drawn = slow_scene()
+@pytest.mark.parametrize("method, triangle_count, view_count, options", [("draw", 10_000, 10 * VIEWS, {"backend": "naive"}),
+                                                                         ("needs", 100, VIEWS, {})])
+def test_a_signal_ends_a_batch(views, method, triangle_count, view_count, options):
+    drawn = slow_scene(triangle_count)
     expected = drawn.draw(CAMERA, SIZE)
-    with pytest.raises(Alarm):
-        drawn.draw([CAMERA] * 10 * VIEWS, SIZE, backend="naive", progress=views.append)
-    assert 0 < sum(views) < 10 * VIEWS and same(drawn.draw(CAMERA, SIZE), expected)
-
-
-def test_a_signal_ends_needs(views):
-    drawn = slow_scene(100)
-    with pytest.raises(Alarm):
-        drawn.needs([CAMERA] * VIEWS, SIZE, progress=views.append)
-    assert 0 < sum(views) < VIEWS and list(drawn.first_ids()) == [0, 100]
+    with pytest.raises(Alarm):  # append() runs no code of Python's, which would handle the signal
+        getattr(drawn, method)([CAMERA] * view_count, SIZE, progress=views.append, **options)
+    assert 0 < sum(views) < view_count and same(drawn.draw(CAMERA, SIZE), expected)
 
 
 def test_progress_counts_the_views():
@@ -137,3 +134,76 @@ def test_progress_and_other_threads_may_use_the_scene_between_views():
     frames = drawn.draw([CAMERA] * VIEWS, SIZE, progress=progress)
     assert len(inner) > 2 and all(same(frame, expected) for frame in inner)
     assert all(same((frames.payload[i], frames.depth[i]), expected) for i in range(VIEWS))
+
+
+def hash_of(drawn, threads=2):
+    return edgewise.pixel_hash(drawn.draw(CAMERA, SIZE, ids=True, threads=threads))
+
+
+def test_a_forked_child_draws_while_a_thread_of_its_parent_draws():
+    idle, busy, done = slow_scene(), slow_scene(), threading.Event()
+    expected = hash_of(idle)
+
+    def draw():
+        while not done.is_set():
+            busy.draw([CAMERA] * 4, SIZE, threads=2)
+    thread = threading.Thread(target=draw)
+    thread.start()
+    try:
+        for _ in range(10):
+            for drawn in (lambda: idle, lambda: busy, slow_scene):
+                child = os.fork()
+                if child == 0:
+                    signal.alarm(60)
+                    os._exit(hash_of(drawn()) != expected)
+                assert os.waitpid(child, 0)[1] == 0  # the number of SIGALRM if it hangs
+    finally:
+        done.set()
+        thread.join()
+
+
+# A process of its own, in which no other test has drawn. It lets oneTBB have 8 threads, so that a child that used oneTBB would
+# start those that its parent did not need.
+FORKING = """
+import ctypes, os, signal, sys
+sys.path.insert(0, sys.argv[1])
+from support import CAMERA, SIZE, triangles
+import edgewise, edgewise.lab
+ctypes.CDLL("libtbb.so.12")._ZN3tbb6detail2r16createERNS0_2d114global_controlE((ctypes.c_size_t * 3)(8))
+drawn = edgewise.Scene(*triangles(3000)[:2])
+works = {"draw": lambda threads: drawn.draw(CAMERA, SIZE, threads=threads), "needs": lambda threads: drawn.needs(CAMERA, SIZE, threads=threads)}
+works[sys.argv[2]](2)
+child = os.fork()
+if child == 0:
+    signal.alarm(60)
+    works[sys.argv[3]](6)
+    os._exit(len(os.listdir("/proc/self/task")))
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+
+
+# _native and _lab have a copy of the library each.
+@pytest.mark.parametrize("parent, child", [("needs", "draw"), ("draw", "needs"), ("draw", "draw")])
+def test_a_child_has_one_thread_whichever_extension_its_parent_used(parent, child):
+    command = [sys.executable, "-c", FORKING, FOLDER, parent, child]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "1\n"
+
+
+@pytest.mark.skipif(os.uname().machine != "x86_64", reason="the numbers are those of x86-64")
+@pytest.mark.parametrize("mode", [0x400, 0x800, 0xC00])
+def test_the_rounding_mode_changes_nothing_and_is_kept(mode):
+    libm = ctypes.CDLL("libm.so.6")
+    drawn, triangle_stream = scene(), stream()
+
+    def numbers():
+        uv, distance = drawn.barycentrics(drawn.draw(CAMERA, SIZE, ids=True), CAMERA)
+        return [hash_of(drawn), edgewise.pixel_hash(triangle_stream.draw()), uv, distance, edgewise.perspective(0.7, 1.3, 0.1, 9),
+                repr(triangle_stream.needs())]
+    expected = numbers()
+    libm.fesetround(mode)
+    try:
+        found = numbers()
+        assert libm.fegetround() == mode
+    finally:
+        libm.fesetround(0)
+    assert all(map(np.array_equal, found, expected))

@@ -8,8 +8,7 @@
 #include "cli/commands.h"
 #include "cli/stability/report.h"
 #include "support/console.h"
-#include "support/json_output.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/options.h"
 #include "support/progress.h"
 

@@ -17,8 +17,7 @@
 #include "cli/verify/random.h"
 #include "cli/verify/verify.h"
 #include "support/console.h"
-#include "support/json_output.h"
-#include "support/json_text.h"
+#include "support/json.h"
 #include "support/machine.h"
 #include "support/output_path.h"
 #include "support/process.h"
@@ -39,8 +38,8 @@ randomized::Shard parse_shard(std::string_view text) {
   const auto slash = text.find('/');
   if (slash == std::string_view::npos)
     throw std::invalid_argument(fmt::format("--shard: '{}' is not I/N, with I from 0 to N - 1", text));
-  const auto of = parse_count("--shard", text.substr(slash + 1), 1, randomized::kMostShards);
-  return {parse_count("--shard", text.substr(0, slash), 0, of - 1), of};
+  const auto of = parse_number<std::uint64_t>("--shard", text.substr(slash + 1), 1, randomized::kMostShards);
+  return {parse_number<std::uint64_t>("--shard", text.substr(0, slash), 0, of - 1), of};
 }
 
 int verify_random_command(VerifyOptions& o) {
@@ -169,8 +168,9 @@ Action add_verify(CLI::App& command) {
   const auto add = [&](const char* name, const char* type, const char* help, auto parse) {
     return add_parsed(command, name, type, help, parse)->needs(random);
   };
-  add("--seed", "S", "Seed of the sequence of cases (1)",
-      [&plan](const std::string& text) { plan.seed = parse_count("--seed", text, 0, ~std::uint64_t{0}); });
+  add("--seed", "S", "Seed of the sequence of cases (1)", [&plan](const std::string& text) {
+    plan.seed = parse_number<std::uint64_t>("--seed", text, 0, ~std::uint64_t{0});
+  });
   CLI::Option* const seconds =
       add("--for", "DURATION", "Time limit: 90s, 20m or 2h (until Ctrl-C)",
           [&plan](const std::string& text) { plan.seconds = parse_duration("--for", text); });
@@ -178,7 +178,7 @@ Action add_verify(CLI::App& command) {
                                  [&plan](const std::string& text) { plan.shard = parse_shard(text); });
   add("--case", "NUMBER", "Draw only this case",
       [&plan](const std::string& text) {
-        const auto number = parse_count("--case", text, 0, ~std::uint64_t{0} - 1);
+        const auto number = parse_number<std::uint64_t>("--case", text, 0, ~std::uint64_t{0} - 1);
         plan.shard = {number, number + 1};
         plan.cases = 1;
       })

@@ -23,6 +23,7 @@ first. Python may exit while its threads draw.
 from __future__ import annotations
 
 import copy
+import copyreg
 import math
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Sequence, TypeVar
 
@@ -30,28 +31,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _check, _native
-from .frames import BACKGROUND_ID as BACKGROUND_ID
-from .frames import BLACK as BLACK
-from .frames import DEPTH_CLEAR as DEPTH_CLEAR
-from .frames import Camera as Camera
-from .frames import Frame as Frame
-from .frames import Stats as Stats
-from .frames import amodal_masks as _amodal_masks
-from .frames import depth01 as depth01
-from .frames import id_colours as id_colours
-from .frames import instance_ids as _instance_ids
-from .frames import interpolate as _interpolate
-from .frames import metric_depth as metric_depth
-from .frames import visible_fraction as _visible_fraction
-from .pictures import Difference as Difference
-from .pictures import _Path
-from .pictures import colours as _colours
-from .pictures import diff as diff
-from .pictures import read_image as read_image
-from .pictures import read_pfm as read_pfm
-from .pictures import warn as _warn
-from .pictures import write_image as write_image
-from .pictures import write_pfm as write_pfm
+from .frames import (BACKGROUND_ID as BACKGROUND_ID, BLACK as BLACK, DEPTH_CLEAR as DEPTH_CLEAR, Camera as Camera, Frame as Frame,
+                     Stats as Stats, amodal_masks as _amodal_masks, depth01 as depth01, id_colours as id_colours,
+                     instance_ids as _instance_ids, interpolate as _interpolate, metric_depth as metric_depth,
+                     visible_fraction as _visible_fraction)
+from .pictures import (Difference as Difference, _Path, colours as _colours, diff as diff, read_image as read_image,
+                       read_pfm as read_pfm, warn as _warn, write_image as write_image, write_pfm as write_pfm)
 
 if TYPE_CHECKING:
     from . import lab
@@ -205,6 +190,25 @@ class _Drawable:
         return frame
 
 
+def _scene_of(meshes: list[Any], instances: list[Any], light: Any) -> Any:
+    made = _native.Drawable()
+    for mesh in meshes:
+        made.add_mesh(*mesh)
+    for instance in instances:
+        made.add_instance(*instance)
+    made.set_light(*light)
+    return made
+
+
+def _reduced(drawable: Any) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+    held = copy.deepcopy(drawable)  # which no other thread changes
+    arrays = held.arrays()  # of a stream, a tuple
+    return (_native.Drawable, arrays) if isinstance(arrays, tuple) else (_scene_of, (arrays, held.instances(), held.light()))
+
+
+copyreg.pickle(_native.Drawable, _reduced)
+
+
 class Scene(_Drawable):
     """Meshes, their instances, and a light. Clip space and the fronts of triangles are as this module says."""
 
@@ -238,9 +242,10 @@ class Scene(_Drawable):
         RGB; else light grey. two_sided: no triangle is culled, and each is lit on the side that is seen. Triangles with NaN
         or infinity are not drawn: Frame.stats counts them. ValueError for an index out of range.
         """
-        return self._native.add_mesh(
-            _check.points(positions), _check.array(triangles, "triangles", np.uint32),
-            None if colours is None else _colours(colours), *_check.flags(two_sided=two_sided))
+        triangles, (two_sided,) = _check.array(triangles, "triangles", np.uint32), _check.flags(two_sided=two_sided)
+        flags = np.full(triangles.shape[:1], _native.TWO_SIDED, np.uint8) if two_sided else None
+        return self._native.add_mesh(_check.points(positions), triangles, None if colours is None else _colours(colours), flags,
+                                     None, None, [])
 
     def add_instance(self, mesh: int, matrix: ArrayLike = IDENTITY) -> int:
         """Places a mesh in the world by an affine matrix, shape (4, 4), and returns the instance's number."""
@@ -265,10 +270,9 @@ class Scene(_Drawable):
     @property
     def meshes(self) -> tuple[Mesh, ...]:
         """The meshes by number, copied."""
-        def mesh_of(positions: Any, triangles: Any, colours: Any, flags: Any, origin: Any, **_: Any) -> Mesh:
-            two_sided = flags.size > 0 and bool((flags & _native.TWO_SIDED).all())
-            return Mesh(positions + origin if origin.any() else positions, triangles, colours, two_sided)
-        return tuple(mesh_of(**mesh) for mesh in self._native.meshes())
+        return tuple(Mesh(positions + origin if origin.any() else positions, triangles, colours,
+                          flags is not None and bool((flags & _native.TWO_SIDED).all()))
+                     for positions, triangles, colours, flags, _, origin, _ in self._native.arrays())
 
     @property
     def instances(self) -> tuple[Instance, ...]:
@@ -380,8 +384,8 @@ class Stream(_Drawable):
     def __init__(self, vertices: ArrayLike, size: tuple[int, int], *, colours: ArrayLike | None = None):
         """vertices: shape (n, 3, 3), float32: per triangle and vertex, x and y in pixels, y down, and z in 0 ... 1, where
         smaller z is nearer. size: width, height in pixels of the image they are made for. colours: as Scene.add_mesh()."""
-        self._native = _native.stream(_check.array(vertices, "vertices", np.float32), *_check.size(size),
-                                      None if colours is None else _colours(colours))
+        self._native = _native.Drawable(_check.array(vertices, "vertices", np.float32),
+                                        None if colours is None else _colours(colours), *_check.size(size))
 
     @classmethod
     def read_tri(cls, path: _Path) -> Stream:

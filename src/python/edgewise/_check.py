@@ -23,16 +23,13 @@ def refuse(value: Any, name: str, allowed: str, error: type[Exception] = TypeErr
 
 
 def integer(value: Any, name: str, low: int = 0, high: int = INT_MAX) -> int:
-    error: type[Exception] = TypeError
-    if not isinstance(value, bool):
-        try:
-            number = operator.index(value)
-            if low <= number <= high:
-                return number
-            error = ValueError
-        except TypeError:
-            pass
-    refuse(value, name, f"an integer from {low} to {high}", error)
+    try:
+        number = None if isinstance(value, bool) else operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or not low <= number <= high:
+        refuse(value, name, f"an integer from {low} to {high}", TypeError if number is None else ValueError)
+    return number
 
 
 def integers(values: Any, name: str, count: int, low: int, high: int) -> tuple[int, ...]:

@@ -189,25 +189,24 @@ def interpolate(self: edgewise.Scene, frame: Frame, attribute: ArrayLike | Seque
     alone. Background: NaN. The result has the arrays' type, or a float type that holds it; the weights are those of
     barycentrics(), as is progress.
     """
-    meshes = self.meshes
+    meshes = self._native.triangles()
     given = attribute if isinstance(attribute, (list, tuple)) else [attribute]
     arrays = [_check.as_array(values, "attribute", "an array, or a list of them") for values in given]
     if len(arrays) != len(meshes):
         raise ValueError(f"attribute: {len(arrays)} arrays given instead of {len(meshes)}; a list has one per mesh")
-    for i, (array, mesh) in enumerate(zip(arrays, meshes)):
+    rest = arrays[0].shape[1:] if arrays else ()
+    for i, (array, (vertices, _)) in enumerate(zip(arrays, meshes)):
         if array.dtype.kind not in "iuf":
             raise ValueError(f"attribute: that of mesh {i} must be numbers, not {array.dtype}")
-        wanted = (len(mesh.positions), *arrays[0].shape[1:])
-        if array.shape != wanted:
-            raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {wanted}")
+        if array.shape != (vertices, *rest):
+            raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {(vertices, *rest)}")
     drawn, triangles, instances = _shown(self, frame)
     uv, _ = self.barycentrics(frame, camera, cull=cull, threads=threads, progress=progress)
-    rest = arrays[0].shape[1:] if arrays else ()
     result = np.full((*drawn.shape, *rest), np.nan, np.result_type(np.float32, *arrays))
     if triangles.size:
         of_instance = np.array([mesh for mesh, _ in self.instances])[instances]
-        first_triangle = np.cumsum([0, *(len(mesh.triangles) for mesh in meshes)])
-        by_triangle = np.concatenate([array[mesh.triangles] for array, mesh in zip(arrays, meshes)])
+        first_triangle = np.cumsum([0, *(len(of_mesh) for _, of_mesh in meshes)])
+        by_triangle = np.concatenate([array[of_mesh] for array, (_, of_mesh) in zip(arrays, meshes)])
         values = by_triangle[triangles + first_triangle[of_instance]]
         u, v = uv[drawn].T.astype(np.float64)  # the weights add up to 1 exactly
         result[drawn] = np.einsum("ip,pi...->p...", np.stack([1 - u - v, u, v]), values)

@@ -1,4 +1,4 @@
-// Where `--json FILE` writes.
+// JSON as valid UTF-8 text, and where `--json FILE` writes it.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,13 @@
 #include "support/console.h"
 
 namespace edgewise::tools {
+
+// Replaces bytes that are not UTF-8, as in file names, by U+FFFD, where plain dump() throws. `indent` as in
+// dump().
+template <typename Json>
+std::string json_text(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
 
 class JsonOutput {
  public:
