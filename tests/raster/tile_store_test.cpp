@@ -160,13 +160,13 @@ TEST(TileTasks, DrawEachTileOnceInFours) {
   constexpr int kColumns = 15, kRows = 9, kLeg = 2000 * contract::kSub;
   const ScreenTriangle all_over{{0, kLeg, 0}, {0, 0, kLeg}, {9, 9, 9}, 5};
   Framebuffer frame(kColumns * contract::kMaxTile, kRows * contract::kMaxTile);
-  std::vector<std::atomic<int>> drawn(kColumns * kRows);
-  bool met = false;
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+  static std::vector<std::atomic<int>> drawn(kColumns * kRows);
+  static bool met = false;
+  static const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
   TileScratch scratch;
   StoredTriangles stored({&all_over, 1});
   draw_in_tiles(stored, {.frame = frame.view()}, {2, 64, resolve(SimdTarget::best)}, {}, scratch,
-                [&](const TileTask& task) {
+                [](const TileTask& task) {
                   while (task.cell == 0 && !met && std::chrono::steady_clock::now() < deadline)
                     met = drawn[1] > 0;
                   ++drawn[static_cast<std::size_t>(task.cell)];
@@ -190,7 +190,7 @@ TEST(TileStore, FillsEveryEmptyTile) {
       TileScratch scratch;
       StoredTriangles stored(triangles);
       draw_in_tiles(stored, {.frame = frame.view(), .background = 42}, {2, 64, resolve(SimdTarget::best)},
-                    {.tile_store = store}, scratch, tile_kernel(resolve(SimdTarget::best)));
+                    {.tile_store = store}, scratch, tile_edges(resolve(SimdTarget::best)));
       testing::expect_same(expected, frame, std::to_string(width) + " px wide");
     }
 }
