@@ -39,27 +39,24 @@ HWY_INLINE void fill_spans(const FrameTask& task, const BoxDepth& z, std::uint32
   const V z_step = set(static_cast<std::uint32_t>(kLanes) * z.zx);
   const auto every = hn::Eq(lane, lane);
   for_each([&](int y, int begin, int end) {
-    if (begin >= end) return;
     const FrameRow row(task.frame, y);
-    // The depths of the vector at `at`, which may lie left of x, by the plane of x's cell.
-    const auto z_in = [&](int x, int at) {
-      const auto from_cell = static_cast<std::uint32_t>(at - (x & -kDepthCell));
-      return hn::Add(set(z.in_cell(x, y) + from_cell * z.zx), z_in_vector);
-    };
-    const auto write_masked = [&](int x) {
+    for (int x = begin, part_end; x < end; x = part_end) {  // a part lies in one depth cell
+      const int cell = x & -kDepthCell;
+      part_end = std::min(end, cell + kDepthCell);
+      const std::uint32_t z_in_cell = z.in_cell(x, y);
+      const auto z_at = [&](int at) {
+        return hn::Add(set(z_in_cell + static_cast<std::uint32_t>(at - cell) * z.zx), z_in_vector);
+      };
+      if (x + kLanes <= part_end) {
+        V z_here = z_at(x);
+        for (; x + kLanes <= part_end; x += kLanes, z_here = hn::Add(z_here, z_step))
+          write(row.depth + x, row.payload + x, every, z_here, colour);
+      }
+      if (x == part_end) continue;
       const int at = vector_at(x, task.area.x1);
-      const auto in_span = between(std::max(begin, x), hn::Add(lane, hn::Set(D{}, at)), end);
-      write(row.depth + at, row.payload + at, in_span, z_in(x, at), colour);
-    };
-    // Only the first and the last vector need a mask.
-    const int first = begin & -kLanes, last = (end - 1) & -kLanes;
-    write_masked(first);
-    for (int x = first + kLanes; x < last;) {
-      const int cell_end = std::min(last, (x | (kDepthCell - 1)) + 1);
-      for (V z_here = z_in(x, x); x < cell_end; x += kLanes, z_here = hn::Add(z_here, z_step))
-        write(row.depth + x, row.payload + x, every, z_here, colour);
+      write(row.depth + at, row.payload + at, between(x, hn::Add(lane, hn::Set(D{}, at)), part_end), z_at(at),
+            colour);
     }
-    if (first < last) write_masked(last);
   });
 #endif
 }
@@ -110,15 +107,21 @@ HWY_INLINE void draw(const FrameTask& task, const LineBatch& batch, int k) {
   const DepthPlane plane{bits(batch.gx), bits(batch.gy), bits(batch.origin),
                          static_cast<std::uint32_t>(batch.zx[k]), static_cast<std::uint32_t>(batch.zy[k])};
   fill_spans(task, BoxDepth(plane, box), static_cast<std::uint32_t>(batch.payload[k]), [&](auto&& span) {
-    std::int64_t at[3];
-    for (int i = 0; i < 3; ++i) at[i] = batch.line[i].at[k];
+    constexpr int kFar = kMaxImageSide;
+    std::int64_t at[3], step[3];
+    int is_left[3], is_right[3];
+    for (int i = 0; i < 3; ++i) {
+      const BatchLine& line = batch.line[i];
+      at[i] = line.at[k], step[i] = line.step[k], is_left[i] = line.is_left[k],
+      is_right[i] = line.is_right[k];
+    }
     for (int y = box.y0; y < box.y1; ++y) {
       int begin = box.x0 - left, end = box.x1 - left;
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < 3; ++i) {  // no branches: sides are hard to predict
         const auto pixel = static_cast<int>(at[i] >> kUnitBits);
-        if (batch.line[i].is_left[k]) begin = std::max(begin, pixel);
-        if (batch.line[i].is_right[k]) end = std::min(end, pixel);
-        at[i] += batch.line[i].step[k];
+        begin = std::max(begin, pixel & is_left[i]);
+        end = std::min(end, (pixel & is_right[i]) | (kFar & ~is_right[i]));
+        at[i] += step[i];
       }
       span(y, begin + left, end + left);
     }
