@@ -269,29 +269,17 @@ TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
 
 TEST(Draw, MakesAScenesTrianglesOnTheThreadsOfTheExecution) {
   static const detail::ParallelFor library = detail::parallel_for;
-  static std::vector<int> used;  // the number of threads of each call
-  const auto threads_of = [](auto&& calls) {
-    used.clear();
-    calls();
-    return used;
-  };
-  const Drawable scene = find_scene("torus-knot").make({});
-  const FrontendOptions options{.width = 150, .height = 90};
-  const auto backend = find_backend("naive").make();
-  Frontend frontend;
-  Framebuffer frame(150, 90);
+  static std::vector<int> used;
   detail::parallel_for = [](int threads, int count, void (*call)(void*, int), void* context) {
     used.push_back(threads);
     library(threads, count, call, context);
   };
-  const auto making = threads_of([&] { frontend.run(scene, options, {.threads = 3}); });
-  const auto two_calls = threads_of(
-      [&] { backend->draw(frontend.run(scene, options, {.threads = 3}), frame.view(), {}, {.threads = 3}); });
-  const auto one_call =
-      threads_of([&] { draw(scene, frontend, options, *backend, frame.view(), {}, {.threads = 3}); });
+  Frontend frontend;
+  Framebuffer frame(150, 90);
+  draw(find_scene("torus-knot").make({}), frontend, {.width = 150, .height = 90}, *wireframe().make(),
+       frame.view(), {}, {.threads = 3});
   detail::parallel_for = library;
-  EXPECT_EQ(making, std::vector{3});
-  EXPECT_EQ(one_call, two_calls);
+  EXPECT_EQ(used, (std::vector{3, 3})) << "front end and backend";
 }
 
 // Large enough that inputs are sampled before they are made.
