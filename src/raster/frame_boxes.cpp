@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
+#include "raster/fill_counts.h"
 #include "raster/kernels.h"
 
 namespace edgewise {
@@ -16,6 +17,7 @@ void draw_box(const ScreenTriangle& triangle, const FrameTask& task) {
   const PixelBox box = pixel_box(triangle, task.area.x1, task.area.y1);
   const Oriented oriented = orient(triangle);
   if (box.empty() || oriented.area == 0) return;
+  count(Part::frame_boxes);
   const Edge edge[3] = {make_edge(oriented, 0), make_edge(oriented, 1), make_edge(oriented, 2)};
   const DepthPlane plane = make_depth(oriented);
   for (int y = std::max(box.y0, task.area.y0); y < box.y1; ++y) {

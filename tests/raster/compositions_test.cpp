@@ -1,13 +1,16 @@
 // Every composition of the backends' parts draws the picture of `naive`.
 #include <gtest/gtest.h>
 
-#include <set>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "edgewise/builtin.h"
 #include "edgewise/draw.h"
 #include "lab/hard_triangles.h"
 #include "lab/measure.h"
 #include "message_of.h"
+#include "raster/fill_counts.h"
 #include "support.h"
 
 namespace edgewise {
@@ -88,6 +91,49 @@ TEST(Compositions, DrawTheSamePicturesInTheSameRenderPasses) {
       }
     }
 }
+
+#ifdef EDGEWISE_COUNT_FILLS
+// The parts that drew or rejected triangles, by their names.
+std::string parts_used(const BackendInfo& info) {
+  constexpr int kSide = 2 * contract::kMaxTile, kEnd = 2 * kSide * contract::kSub;
+  std::vector<ScreenTriangle> triangles{{{0, kEnd, 0}, {0, 0, kEnd}, {5, 5, 5}, 1},
+                                        {{0, kEnd, 0}, {0, 0, kEnd}, {9, 9, 9}, 2}};
+  for (int i = 0; i < 16; ++i) {  // small ones, in every tile
+    const int x = (i % 4 * 32 + 9) * contract::kSub, y = (i / 4 * 32 + 9) * contract::kSub,
+              leg = 5 * contract::kSub;
+    triangles.push_back({{x, x + leg, x}, {y, y, y + leg}, {1, 1, 1}, 3});
+  }
+  Framebuffer frame(kSide, kSide);
+  for (auto& n : fill_counts) n = 0;
+  info.make()->draw(triangles, frame.view(), {}, {.threads = 2});
+  constexpr std::string_view kNames[] = {"boxes",      "spans", "edges", "tile_spans",
+                                         "tile_edges", "masks", "hiz"};
+  std::string used;
+  for (std::size_t i = 0; i < fill_counts.size(); ++i)
+    if (fill_counts[i] != 0) used += (used.empty() ? "" : " ") + std::string(kNames[i]);
+  return used;
+}
+
+TEST(Compositions, DrawByTheirPartsOnly) {
+  if (resolve(SimdTarget::best) == SimdTarget::scalar) GTEST_SKIP() << "HiZ and masks need vectors";
+  const std::map<std::string_view, std::string_view> expected{
+      {"naive", "boxes"},
+      {"scanline", "spans"},
+      {"tiled", "tile_edges masks hiz"},
+      {"bands+spans", "spans"},
+      {"bands+edges", "edges"},
+      {"tiles+spans", "tile_spans"},
+      {"tiles+spans+hiz", "tile_spans hiz"},
+      {"tiles+spans+masks", "tile_spans masks"},
+      {"tiles+spans+hiz+masks", "tile_spans masks hiz"},
+      {"tiles+edges", "tile_edges"},
+      {"tiles+edges+hiz", "tile_edges hiz"},
+      {"tiles+edges+masks", "tile_edges masks"},
+      {"tiles+edges+hiz+masks", "tile_edges masks hiz"}};
+  for (const auto list : {backends(), compositions()})
+    for (const BackendInfo& info : list) EXPECT_EQ(parts_used(info), expected.at(info.name)) << info.name;
+}
+#endif
 
 TEST(Compositions, AreFoundByTheirNames) {
   EXPECT_EQ(compositions().size(), 10u);

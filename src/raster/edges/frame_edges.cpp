@@ -10,6 +10,7 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
+#include "raster/fill_counts.h"
 #include "raster/frame_lanes-inl.h"
 #include "raster/kernels.h"
 
@@ -27,6 +28,7 @@ struct NarrowBatch;
 inline void draw_edges(const FrameTask& task, const ScreenTriangle& triangle, const PixelBox& box) {
   const Oriented t = orient(triangle);
   if (t.area == 0) return;
+  count(Part::frame_edges);
   const Edge edge[3] = {make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)};
   const DepthPlane plane = make_depth(t);
   const auto step = [&](int i) { return std::int64_t{edge[i].a} * kSub; };
@@ -53,6 +55,7 @@ inline void draw_edges(const FrameTask& task, const ScreenTriangle& triangle, co
   const D d;
   const Oriented t = orient(triangle);
   if (t.area == 0) return;
+  count(Part::frame_edges);
   const BoxDepth plane(make_depth(t), box);
   const V lane = hn::Iota(d, 0), z_in_vector = hn::Mul(lane, set(plane.zx)), colour = set(triangle.payload);
   const Edge edge[3] = {make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)};
@@ -144,6 +147,7 @@ HWY_INLINE BatchBits set_up_vector(const FrameTask& task, const std::uint32_t* i
 
 // Draws triangle k of a batch, column by column of vectors. A box that two depth cells share has two parts.
 HWY_INLINE void draw(const FrameTask& task, const NarrowBatch& batch, int k) {
+  count(Part::frame_edges);
   const D d;
   const V lane = hn::Iota(d, 0), colour = hn::Set(d, batch.payload[k]);
   const V zx = hn::Set(d, batch.depth.x[k]), zy = hn::Set(d, batch.depth.y[k]);

@@ -7,6 +7,7 @@
 
 #include "raster/binning/mask_lists.h"
 #include "raster/edges/tile_blocks-inl.h"
+#include "raster/fill_counts.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_MASKS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -62,6 +63,7 @@ HWY_NOINLINE inline std::size_t draw_masks(Tile& tile, std::span<const CoverageM
       }
     }
   }
+  count(Part::masks, n);
   return n;
 }
 

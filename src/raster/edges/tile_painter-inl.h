@@ -13,6 +13,7 @@
 #include "raster/edges/tile_rows-inl.h"
 #include "raster/edges/tile_setup-inl.h"
 #include "raster/edges/tile_small-inl.h"
+#include "raster/fill_counts.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_PAINTER_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -74,6 +75,7 @@ class TilePainter {
       const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
       if (std::max(width, height) <= SmallTriangles<Arithmetic>::kSide) {
         draw_waiting();
+        count(Part::tile_edges);
         small_.add(batch_, k);
       } else {
         small_.draw();
@@ -81,8 +83,11 @@ class TilePainter {
           stale_ = false, occludes_ = load_hiz(task_, tile_);
         // Thin triangles fill no block, so they occlude none.
         occludes_ = occludes_ || (task_.hierarchical_depth && may_fill_blocks(batch_, k));
-        if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
+        if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]] {  // in most scenes
+          count(Part::hiz);
           continue;
+        }
+        count(Part::tile_edges);
         occludes_ ? find_candidates<true>(k, width, *next) : find_candidates<false>(k, width, *next);
         draw_waiting();
         waiting = next;

@@ -10,6 +10,7 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
+#include "raster/fill_counts.h"
 #include "raster/frame_lanes-inl.h"
 #include "raster/kernels.h"
 #include "raster/spans/edge_walk.h"
@@ -25,6 +26,7 @@ using namespace contract;
 template <typename ForEach>
 HWY_INLINE void fill_spans(const FrameTask& task, const BoxDepth& z, std::uint32_t payload,
                            ForEach&& for_each) {
+  count(Part::frame_spans);
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_NEON  // the compiler's loop is shorter than 4 lanes of ours
   for_each([&](int y, int begin, int end) {
     const FrameRow row(task.frame, y);

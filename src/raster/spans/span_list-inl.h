@@ -15,6 +15,7 @@
 
 #include "edgewise/contract.h"
 #include "raster/binning/mask_lists.h"
+#include "raster/fill_counts.h"
 #include "raster/simd/hiz-inl.h"
 #include "raster/spans/span_rows-inl.h"
 #include "raster/tile_store-inl.h"
@@ -55,7 +56,8 @@ class SpanList {
 
   HWY_INLINE void add(const SpanBatch& batch, int k) {
     const bool wide = batch.x1[k] - batch.x0[k] > kNarrow;
-    if (wide && occludes_ && tile_.hiz.occludes(batch.nearest[k])) return;
+    if (wide && occludes_ && tile_.hiz.occludes(batch.nearest[k])) return count(Part::hiz);
+    count(Part::tile_spans);
     if (length_ > kCapacity - kMostSpans) draw();
     const D d;
     const V zx = hn::Set(d, batch.depth.x[k]);
@@ -211,6 +213,7 @@ HWY_NOINLINE inline std::size_t draw_masks(SpanTile& tile, std::span<const Cover
       }
     }
   }
+  count(Part::masks, n);
   return n;
 }
 

@@ -17,6 +17,7 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
+#include "raster/fill_counts.h"
 #include "raster/kernels.h"
 #include "raster/spans/edge_walk.h"
 #include "raster/spans/span_list-inl.h"
@@ -37,6 +38,7 @@ void walk_triangle(const TileTask& task, const ScreenTriangle& triangle, std::in
   box.x0 = std::max(box.x0, task.x0), box.y0 = std::max(box.y0, task.y0);
   const Oriented t = orient(triangle);
   if (box.empty() || t.area == 0) return;
+  count(Part::tile_spans);
   const DepthPlane plane = make_depth(t);
   for_each_span(t, box, [&](int y, int begin, int end) {
     const int row = (y - task.y0) * kMaxTile;  // the tile is one depth cell
