@@ -48,8 +48,8 @@ facts() {
   scenes=$(python3 -c 'import json, sys; print(*(s["name"] for s in json.load(sys.stdin)["scenes"] if s["smallest"]))' \
     <"$root/results/facts/accuracy.json")
   for arguments in "accuracy $scenes --json -" 'stability legs cycle vertex_w --quick --json -' 'needs cubes --json' \
-    'portable cube --json' 'demo p5js-clipping -o - --format ppm --size 320x180' 'render cubes -o -' \
-    'render cubes -o - --format ppm' 'render cubes --depth -' 'capture sphere -o -'; do
+    'portable cube --json' 'render cubes -o -' 'render cubes -o - --format ppm' 'render cubes --depth -' \
+    'capture sphere -o -'; do # no picture with labels, which need Dear ImGui
     # shellcheck disable=SC2086 # words
     "$@" "$build/edgewise" $arguments
   done

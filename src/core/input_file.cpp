@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "edgewise/limits.h"
 
 namespace edgewise {

@@ -15,6 +15,7 @@ namespace edgewise {
 // From a number whose bytes in memory are in little endian, and back.
 template <std::unsigned_integral T>
 constexpr T little_endian(T number) {
+  static_assert(sizeof number <= 8);
   if constexpr (std::endian::native == std::endian::little)
     return number;
   else

@@ -32,6 +32,7 @@ std::span<const SimdTarget> supported_targets() {
 
 std::string_view name_of(SimdTarget target) {
   constexpr std::array<std::string_view, 6> kNames{"scalar", "sse4", "avx2", "avx512", "neon", "best"};
+  static_assert(static_cast<std::size_t>(SimdTarget::best) + 1 == kNames.size());
   const auto i = static_cast<std::size_t>(target);
   if (i >= kNames.size()) throw std::invalid_argument("not a SIMD target");
   return kNames[i];

@@ -83,28 +83,30 @@ Difference compare(const Kind& a, const Kind& b, const Samples* mask) {
   Difference result;
   result.scale = scale_of(a, b);
   result.picture = {a.width, a.height, std::vector<std::uint32_t>(pixels)};
-  std::vector<std::pair<std::size_t, double>> differing;
+  const auto is_masked = [&](std::size_t i) {
+    return mask != nullptr && (mask->pixels[i][0] | mask->pixels[i][1] | mask->pixels[i][2]) != 0;
+  };
   double largest_finite = 0.0;
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto [delta, alpha_differs, grey] = compared(a, b, i);
     result.picture.pixels[i] = rgb(grey, grey, grey);
-    if (mask != nullptr && (mask->pixels[i][0] | mask->pixels[i][1] | mask->pixels[i][2]) != 0) {
+    if (is_masked(i)) {
       ++result.masked;
       result.masked_count += delta != 0.0;
       continue;
     }
     result.alpha_count += alpha_differs;
     if (delta == 0.0) continue;
-    differing.emplace_back(i, delta);
+    if (result.count++ == 0) {
+      result.first_x = static_cast<int>(i % columns);
+      result.first_y = static_cast<int>(i / columns);
+    }
     result.largest = std::max(result.largest, delta);
     if (std::isfinite(delta)) largest_finite = std::max(largest_finite, delta);
   }
-  result.count = differing.size();
-  if (result.count > 0) {
-    result.first_x = static_cast<int>(differing[0].first % columns);
-    result.first_y = static_cast<int>(differing[0].first / columns);
-  }
-  for (const auto& [i, delta] : differing) {
+  for (std::size_t i = 0; result.count > 0 && i < pixels; ++i) {
+    const double delta = is_masked(i) ? 0.0 : compared(a, b, i).delta;
+    if (delta == 0.0) continue;
     const double share = std::isfinite(delta) ? delta / largest_finite : 1.0;
     result.picture.pixels[i] =
         rgb(static_cast<std::uint32_t>(kFaintestRed + (255.0 - kFaintestRed) * share), 0, 0);

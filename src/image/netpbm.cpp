@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "edgewise/contract.h"
 
 namespace edgewise::netpbm {

@@ -10,7 +10,7 @@
 
 #include "core/float_state.h"
 #include "core/little_endian.h"
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "edgewise/contract.h"
 #include "image/format.h"
 #include "image/netpbm.h"

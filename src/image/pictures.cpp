@@ -25,6 +25,7 @@ Image picture_of_hits(std::span<const std::uint32_t> hits, int width, int height
   constexpr std::array<std::uint32_t, 4> kColours{rgb(0, 0, 0), rgb(128, 128, 128), rgb(255, 210, 0),
                                                   rgb(255, 0, 0)};
   Image image{width, height, {}};
+  image.pixels.reserve(hits.size());
   for (const std::uint32_t n : hits) image.pixels.push_back(kColours[n < 3 ? n : 3]);
   return image;
 }

@@ -85,7 +85,7 @@ std::size_t add_arrays(Drawn& self, const Array<Coordinate>& positions, const Wo
   });
 }
 
-// What add_arrays() takes, by mesh.
+// The arguments of add_arrays(), by mesh.
 py::list arrays_of(const Scene& scene) {
   const auto or_none = [](const auto& values) {
     return values.empty() ? py::object(py::none()) : py::object(as_array(values));
@@ -114,7 +114,7 @@ std::unique_ptr<Drawn> stream(const Floats& vertices, const std::optional<Words>
   return drawn(std::move(made));
 }
 
-// What stream() takes.
+// The arguments of stream().
 py::tuple arrays_of(const TriangleStream& stream) {
   const auto count = static_cast<py::ssize_t>(stream.triangles.size());
   Floats vertices({count, py::ssize_t{3}, py::ssize_t{3}});
@@ -200,7 +200,7 @@ PYBIND11_MODULE(_native, m) {
            [](Drawn& self, const py::dict&) {
              return drawn(self.use([](const Drawable& drawable) { return drawable; }));
            })
-      // The arrays of copies: none may be made while other threads wait for the scene.
+      // Copies first: while other threads wait for the scene, no Python array may be made.
       .def("arrays",
            [](Drawn& self) -> py::object {
              const Drawable copy = self.use([](const Drawable& drawable) { return drawable; });

@@ -43,8 +43,8 @@ class Archive(sdist):
 
 
 version = re.search(r"project\(edgewise VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
-folder = os.environ.get("EDGEWISE_BUILD")  # nothing is written into the source tree
-if folder is None:
+folder = os.path.abspath(os.environ["EDGEWISE_BUILD"]) if os.environ.get("EDGEWISE_BUILD") else None
+if folder is None:  # nothing is written into the source tree
     folder = tempfile.mkdtemp(prefix="edgewise-")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
 os.makedirs(folder, exist_ok=True)

@@ -7,7 +7,7 @@
 
 #include "core/finite.h"
 #include "core/float_state.h"
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "core/trigonometry.h"
 
 namespace edgewise {

@@ -17,7 +17,7 @@
 
 #include "core/float_state.h"
 #include "core/input_file.h"
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "edgewise/limits.h"
 #include "scene/origin.h"
 #include "scene/polygon.h"

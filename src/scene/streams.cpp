@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/float_state.h"
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "core/random.h"
 
 namespace edgewise {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/nearest_name.h"
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "edgewise/contract.h"
 #include "support/cores.h"
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/parse_number.h"
+#include "core/numbers.h"
 #include "lab/choice.h"
 
 namespace edgewise::viewer {

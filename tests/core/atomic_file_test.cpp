@@ -32,14 +32,15 @@ TEST(AtomicFile, AppearsOnCommitOnly) {
   const fs::path path = dir.path() / std::string(255, 'x');  // the longest name
   const int unnamed = open(dir.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
   {
-    AtomicFile file(path), lost(path);
-    file.stream() << "new" << std::flush, lost.stream() << "lost" << std::flush;
-    EXPECT_EQ(dir.count(), unnamed < 0 ? 2u : 0u);
+    AtomicFile file(path), next(path), lost(path);
+    file.stream() << "new" << std::flush, next.stream() << "next", lost.stream() << "lost" << std::flush;
+    EXPECT_EQ(dir.count(), unnamed < 0 ? 3u : 0u);
     EXPECT_FALSE(fs::exists(path));
     file.commit();
     EXPECT_EQ(file_content(path), "new");
+    next.commit();
   }
-  EXPECT_EQ(file_content(path), "new");
+  EXPECT_EQ(file_content(path), "next");
   EXPECT_EQ(dir.count(), 1u);
   close(unnamed);
 }

@@ -55,6 +55,7 @@ TEST_P(EmulatedCpu, PrintsTheSameFactsAndPicturesAsThisMachine) {
         "needs cubes --size 160x90 --json", "portable cubes --size 160x90 --json",
         "render torus-knot --size 120x90 -o - --format ppm", "render terrain --size 120x90 --depth -"}) {
     const Outcome here = run_program(EDGEWISE_PROGRAM, arguments), there = emulate(arguments);
+    ASSERT_EQ(here.status, 0) << here.err;
     ASSERT_EQ(there.status, 0) << there.err;
     EXPECT_TRUE(here.out == there.out && !here.out.empty()) << arguments;
   }

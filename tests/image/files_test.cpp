@@ -56,7 +56,7 @@ TEST(TriFile, RoundTripKeepsEveryBit) {
       {{{{0.5f, 1.25f, 0.0f}, {-1e30f, 1e-40f, 1.0f}, {-0.0f, 3.0f, 0.3f}}, 0x80FF1234u},
        {{{std::nanf("7"), inf, -inf}, {-std::nanf(""), 2, 3}, {4, 5, 6}}, 0xFFFFFFFFu}}};
   const TriangleStream back = read_tri(dir.write("a.tri", tri_text(stream)));
-  EXPECT_EQ(std::tuple(back.width, back.height, back.triangles.size()), std::tuple(1920, 1080, 2u));
+  ASSERT_EQ(std::tuple(back.width, back.height, back.triangles.size()), std::tuple(1920, 1080, 2u));
   EXPECT_EQ(std::memcmp(back.triangles.data(), stream.triangles.data(), 80), 0);
   EXPECT_TRUE(read_tri(dir.write("none.tri", tri_header(1, 16384, 0))).triangles.empty());
 }

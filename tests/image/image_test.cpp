@@ -200,7 +200,7 @@ TEST(Pfm, RoundTripKeepsEveryBit) {
       2, 3, {0.0f, -0.0f, 1.0f, std::nanf("5"), std::numeric_limits<float>::infinity(), 1e-40f}};
   write_pfm(path, map);
   const DepthMap back = read_pfm(path);
-  EXPECT_EQ(std::tuple(back.width, back.height, back.depth01.size()), std::tuple(2, 3, 6u));
+  ASSERT_EQ(std::tuple(back.width, back.height, back.depth01.size()), std::tuple(2, 3, 6u));
   EXPECT_EQ(std::memcmp(back.depth01.data(), map.depth01.data(), 24), 0);
 }
 

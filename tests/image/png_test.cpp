@@ -125,12 +125,12 @@ TEST(PngSamples, OfPalettesAreItsColours) {
 }
 
 TEST(PngSamples, OfInterlacedFilesAreInTheirPlaces) {
-  constexpr std::uint32_t kWidth = 11, kHeight = 9;
+  constexpr int kWidth = 11, kHeight = 9;
   std::string rows;
-  for (unsigned pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; ++pass)
-    for (std::uint32_t y = PNG_PASS_START_ROW(pass); y < kHeight; y += PNG_PASS_ROW_OFFSET(pass)) {
+  for (int pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; ++pass)
+    for (int y = PNG_PASS_START_ROW(pass); y < kHeight; y += PNG_PASS_ROW_OFFSET(pass)) {
       rows += '\0';
-      for (std::uint32_t x = PNG_PASS_START_COL(pass); x < kWidth; x += PNG_PASS_COL_OFFSET(pass))
+      for (int x = PNG_PASS_START_COL(pass); x < kWidth; x += PNG_PASS_COL_OFFSET(pass))
         rows += static_cast<char>(16 * y + x);
     }
   const Samples image = samples_of({kWidth, kHeight, 8, kGrey, rows, "", 1});

@@ -226,6 +226,7 @@ def test_a_wrong_type_is_refused_by_the_arguments_name(function, parameter):
             function(**{**allowed, parameter.name: bad})
         text = str(raised.value)
         assert re.search(rf"\b{parameter.name}\b", text) and "\n" not in text and len(text) < 200, (bad, text)
+        assert not isinstance(bad, np.ma.MaskedArray) or "mask" in text
 
 
 def test_numbers_that_stay_the_same_are_taken():

@@ -141,7 +141,7 @@ def hash_of(drawn, threads=2):
 
 
 def test_a_forked_child_draws_while_a_thread_of_its_parent_draws():
-    idle, busy, done = slow_scene(), slow_scene(), threading.Event()
+    idle, busy, done = slow_scene(20_000), slow_scene(20_000), threading.Event()
     expected = hash_of(idle)
 
     def draw():
@@ -151,7 +151,7 @@ def test_a_forked_child_draws_while_a_thread_of_its_parent_draws():
     thread.start()
     try:
         for _ in range(10):
-            for drawn in (lambda: idle, lambda: busy, slow_scene):
+            for drawn in (lambda: idle, lambda: busy, lambda: slow_scene(20_000)):
                 child = os.fork()
                 if child == 0:
                     signal.alarm(60)

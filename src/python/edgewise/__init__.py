@@ -201,12 +201,12 @@ def _scene_of(meshes: list[Any], instances: list[Any], light: Any) -> Any:
 
 
 def _reduced(drawable: Any) -> tuple[Callable[..., Any], tuple[Any, ...]]:
-    held = copy.deepcopy(drawable)  # which no other thread changes
-    arrays = held.arrays()  # of a stream, a tuple
+    held = copy.deepcopy(drawable)  # other threads may change the original
+    arrays = held.arrays()  # a tuple for a stream, a list for a scene
     return (_native.Drawable, arrays) if isinstance(arrays, tuple) else (_scene_of, (arrays, held.instances(), held.light()))
 
 
-copyreg.pickle(_native.Drawable, _reduced)
+copyreg.pickle(_native.Drawable, _reduced)  # pybind11's py::pickle fails with protocols below 2
 
 
 class Scene(_Drawable):

@@ -1,4 +1,4 @@
-#include "core/parse_number.h"
+#include "core/numbers.h"
 
 #include <charconv>
 #include <cmath>
