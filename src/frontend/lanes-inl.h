@@ -27,7 +27,7 @@ using VF = hn::Vec<DF>;
 // Triangles or vertices that are processed together.
 constexpr std::size_t kLanes = hn::MaxLanes(DI{});
 
-// first, first + 1, … raster/simd/lanes-inl.h says why this is not Iota(first).
+// first, first + 1, … core/lanes-inl.h says why this is not Iota(first).
 HWY_INLINE VI counting_from(std::size_t first) {
   return hn::Add(hn::Iota(DI{}, 0), hn::Set(DI{}, static_cast<std::int32_t>(first)));
 }

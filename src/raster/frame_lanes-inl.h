@@ -6,10 +6,10 @@
 #include <bit>
 #include <cstdint>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 #include "raster/kernels.h"
 #include "raster/simd/depth_lanes-inl.h"
-#include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 
 // Included once per SIMD target.

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 #include "raster/kernels.h"
-#include "raster/simd/lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_STORE_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -18,9 +18,9 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 #include "raster/edges/tile_arithmetic-inl.h"
-#include "raster/simd/lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_OTHER_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)

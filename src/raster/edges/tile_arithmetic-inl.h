@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 #include "raster/edges/tile_linear-inl.h"
 #include "raster/kernels.h"
 #include "raster/simd/depth_lanes-inl.h"
-#include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 
 // Included once per SIMD target.

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "raster/simd/lanes-inl.h"
+#include "core/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 
 // Included once per SIMD target.

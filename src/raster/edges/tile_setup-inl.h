@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <span>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 #include "raster/binning/cell_boxes.h"
 #include "raster/edges/tile_arithmetic-inl.h"
 #include "raster/edges/tile_depth-inl.h"
 #include "raster/kernels.h"
-#include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 
 // Included once per SIMD target.

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <iterator>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
-#include "raster/simd/lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_HIZ_INL_H) == defined(HWY_TARGET_TOGGLE)

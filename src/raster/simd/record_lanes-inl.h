@@ -8,8 +8,8 @@
 
 #include <cstdint>
 
+#include "core/lanes-inl.h"
 #include "edgewise/screen_triangle.h"
-#include "raster/simd/lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_RECORD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
-#include "raster/simd/lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_RULE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <span>
 
+#include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 #include "edgewise/screen_triangle.h"
-#include "raster/simd/lanes-inl.h"
 #include "raster/simd/rule_lanes-inl.h"
 
 // Included once per SIMD target.
