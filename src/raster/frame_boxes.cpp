@@ -12,8 +12,8 @@ namespace {
 
 using namespace contract;
 
-// Three edge functions (rule 4) and the depth plane (rule 6) are evaluated at each pixel. Inlined into the loop
-// over triangles, GCC 12 keeps them in memory, and frames of cubes take 1.2 times as long.
+// Three edge functions (rule 4) and the depth plane (rule 6) are evaluated at each pixel. Inlined into the
+// loop over triangles, GCC 12 keeps them in memory, and frames of cubes take 1.2 times as long.
 [[gnu::noinline]] void draw_box(const ScreenTriangle& triangle, const FrameTask& task) {
   const PixelBox box = pixel_box(triangle, task.area.x1, task.area.y1);
   const Oriented oriented = orient(triangle);
