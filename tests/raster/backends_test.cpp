@@ -26,16 +26,9 @@ TEST_P(EveryBackend, MatchesTheOracleForEveryFamily) {
 }
 
 TEST_P(EveryBackend, MatchesTheOracleAtEverySize) {
-  for (const auto& [width, height] : {std::pair{1, 1},
-                                      {1, 64},
-                                      {64, 1},
-                                      {3, 5},
-                                      {16, 16},
-                                      {17, 15},
-                                      {63, 65},
-                                      {64, 64},
-                                      {129, 33},
-                                      {200, 130}})
+  constexpr int kSizes[][2] = {{1, 1},   {1, 64},  {64, 1},  {3, 5},    {16, 16},
+                               {17, 15}, {63, 65}, {64, 64}, {129, 33}, {200, 130}};
+  for (const auto& [width, height] : kSizes)
     for (const auto family : {"uniform", "huge", "cloud"})
       expect_oracle(adversarial(family, 40, width, height, 15), width, height,
                     std::to_string(width) + "x" + std::to_string(height));
@@ -227,17 +220,6 @@ TEST(Draw, MakesAScenesTrianglesOnTheThreadsOfTheExecution) {
        frame.view(), {}, {.threads = 3});
   detail::parallel_for = library;
   EXPECT_EQ(used, (std::vector{3, 3})) << "front end and backend";
-}
-
-// Large enough that inputs are sampled before they are made.
-TEST(StreamSource, CountsEachInputOnce) {
-  const Drawable stream = random_stream({.width = 64, .height = 64}, 400'000, 2, 0, 3);
-  const FrontendOptions options{.width = 64, .height = 64};
-  Frontend plain, frontend;
-  Framebuffer frame(64, 64);
-  plain.run(stream, options);
-  draw(stream, frontend, options, *find_backend("tiled").make(), frame.view(), {}, {.threads = 2});
-  EXPECT_TRUE(frontend.stats() == plain.stats());
 }
 
 TEST(SceneSource, NoticesAMissingVertexBeforeTheFrameIsWritten) {

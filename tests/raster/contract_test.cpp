@@ -13,9 +13,7 @@ using namespace contract;
 
 std::uint64_t exact_gradient(std::int64_t n, std::int64_t area) {
   const int128 wide = static_cast<int128>(n) * (1 << 24);
-  int128 q = wide / area;
-  if (wide % area < 0) --q;
-  return static_cast<std::uint64_t>(q);
+  return static_cast<std::uint64_t>(wide / area - (wide % area < 0));
 }
 
 TEST(Contract, GradientIsTheExactFloor) {
