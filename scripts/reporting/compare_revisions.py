@@ -8,11 +8,13 @@ import signal
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
+from statistics import geometric_mean
 
 import noise
 from bench_rows import read_bench, records
@@ -327,6 +329,16 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
     return 0
 
 
+def means(ratios):
+    """Lines of the geometric means of {row: ratio}: of each backend's rows, whole frames included, and of all."""
+    backends = {}
+    for name, ratio in ratios.items():
+        backends.setdefault(name.split("/")[0].removesuffix("+frontend"), []).append(ratio)
+    told = [f"{name}\N{NO-BREAK SPACE}{geometric_mean(of):.3f}" for name, of in (*sorted(backends.items()), ("all", ratios.values()))]
+    lines = textwrap.fill("Geometric means of the ratios: " + ", ".join(told), 80, break_on_hyphens=False)
+    return lines.replace("\N{NO-BREAK SPACE}", " ")
+
+
 def print_compared(rows, listed, verdicts=VERDICTS):
     """Prints rows and `listed` names of both sides. Returns the number of rounds and the judged rows."""
     failed = [f"{name}: {row.error}" for name, row in rows.items() if row.error]
@@ -345,6 +357,8 @@ def print_compared(rows, listed, verdicts=VERDICTS):
     print_names("Not compared: error", failed)
     for side, other, title in ((0, 1, "Only before"), (1, 0, "Only after")):
         print_names(title, [name for name in listed[side] if name not in listed[other]])
+    if judged:
+        print("\n" + means({name: row.ratio for name, row in judged.items()}))
     return done, judged
 
 

@@ -16,9 +16,9 @@
 // + |y| < 1/2 around its sample, so never the pixel that the line ends in. That suits line strips but depends
 // on the direction, and triangles traverse a shared edge in opposite directions.
 //
-// Widths: v0 du, dv (s - u0) and a frame's rows times 256 du are at most 2^46 each, wherever in the band s
-// lies, and twice z du is at most 2^55, so int64 suffices. Quotients are stepped exactly, with their
-// remainders, so the start of the drawing changes nothing: division skips the parts outside frame or band.
+// Widths: v0 du and dv (s - u0) are at most 2^46 each, and twice z du is at most 2^55, so int64 suffices.
+// Quotients are stepped exactly, with their remainders, so a drawing that starts inside the edge has the same
+// pixels.
 //
 // On several threads, bands of the frame are drawn in parallel, and each band visits all triangles: comparing
 // y is cheap beside drawing an edge. Bins are no help, since they drop triangles without a sample in their
@@ -37,11 +37,6 @@ using namespace contract;
 
 namespace {
 
-struct Point {
-  std::int32_t u, v;
-  std::int64_t z;
-};
-
 constexpr std::int32_t pixel_of(std::int32_t sub) {
   return sub >> kSubBits;
 }
@@ -50,47 +45,28 @@ constexpr std::int32_t first_sample(std::int32_t sub) {
   return (sub + kHalf - 1) >> kSubBits;
 }
 
-constexpr std::int64_t floor_divide(std::int64_t n, std::int64_t d) {  // d > 0
-  const std::int64_t q = n / d;
-  return q - (q * d > n);
-}
-constexpr std::int64_t ceil_divide(std::int64_t n, std::int64_t d) {
-  return -floor_divide(-n, d);
-}
-
-// floor(n / d), stepped as n grows by a constant.
+// floor(n / d), stepped as n grows by a constant. d > 0.
 class Quotient {
  public:
-  constexpr Quotient(std::int64_t n, std::int64_t d, std::int64_t step)
-      : value_(floor_divide(n, d)),
-        rest_(n - value_ * d),
-        divisor_(d),
-        step_(floor_divide(step, d)),
-        step_rest_(step - step_ * d) {}
+  Quotient(std::int64_t n, std::int64_t d, std::int64_t step) : divisor_(d) {
+    divide(n, value_, rest_);
+    divide(step, step_, step_rest_);
+  }
 
-  constexpr std::int64_t value() const { return value_; }
-  constexpr void advance() {
+  std::int64_t value() const { return value_; }
+  void advance() {
     value_ += step_, rest_ += step_rest_;
     if (rest_ >= divisor_) ++value_, rest_ -= divisor_;
   }
 
  private:
-  std::int64_t value_, rest_, divisor_, step_, step_rest_;
-};
+  void divide(std::int64_t n, std::int64_t& quotient, std::int64_t& rest) const {
+    quotient = n / divisor_, rest = n % divisor_;
+    if (rest < 0) --quotient, rest += divisor_;
+  }
 
-struct PixelRange {
-  std::int64_t begin, end;
+  std::int64_t divisor_, value_, rest_, step_, step_rest_;
 };
-
-// The part of a range of u where floor((n0 + 256 dv u) / (256 du)) lies in `rows`.
-PixelRange clip_to(PixelRange u, Interval rows, std::int64_t n0, std::int64_t dv, std::int64_t du) {
-  const std::int64_t low = rows.begin * du * kSub - n0, high = rows.end * du * kSub - n0, step = dv * kSub;
-  if (dv > 0) return {std::max(u.begin, ceil_divide(low, step)), std::min(u.end, ceil_divide(high, step))};
-  if (dv < 0)
-    return {std::max(u.begin, floor_divide(-high, -step) + 1),
-            std::min(u.end, floor_divide(-low, -step) + 1)};
-  return low <= 0 && 0 < high ? u : PixelRange{0, 0};
-}
 
 class Edges {
  public:
@@ -103,17 +79,14 @@ class Edges {
     const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
     if (pixel_of(max_x) < columns_.begin || pixel_of(min_x) >= columns_.end || signed_area(t) == 0) return;
     for (int i = 0; i < 3; ++i) {
-      const int j = i == 2 ? 0 : i + 1;
-      draw_end(t, i);
-      if (std::abs(t.x_sub[j] - t.x_sub[i]) >= std::abs(t.y_sub[j] - t.y_sub[i]))
-        draw_between<true>({t.x_sub[i], t.y_sub[i], t.z[i]}, {t.x_sub[j], t.y_sub[j], t.z[j]}, t.payload);
-      else
-        draw_between<false>({t.y_sub[i], t.x_sub[i], t.z[i]}, {t.y_sub[j], t.x_sub[j], t.z[j]}, t.payload);
+      test_and_write(pixel_of(t.x_sub[i]), pixel_of(t.y_sub[i]), t.z[i], t.payload);
+      draw_between(t, i, i == 2 ? 0 : i + 1);
     }
   }
 
  private:
   void test_and_write(std::int64_t x, std::int64_t y, std::int64_t z, std::uint32_t payload) const {
+    if (x < columns_.begin || x >= columns_.end || y < rows_.begin || y >= rows_.end) return;
     const auto at = static_cast<std::ptrdiff_t>(y * frame_.stride + x);
     const auto depth = static_cast<std::uint32_t>(z);
     if (depth >= frame_.depth[at]) return;
@@ -121,29 +94,20 @@ class Edges {
     frame_.payload[at] = payload;
   }
 
-  void draw_end(const ScreenTriangle& t, int i) const {
-    const std::int32_t x = pixel_of(t.x_sub[i]), y = pixel_of(t.y_sub[i]);
-    if (x >= columns_.begin && x < columns_.end && y >= rows_.begin && y < rows_.end)
-      test_and_write(x, y, t.z[i], t.payload);
-  }
-
-  template <bool kAlongX>
-  void draw_between(Point a, Point b, std::uint32_t payload) const {
-    if (a.u > b.u) std::swap(a, b);
-    const Interval along = kAlongX ? columns_ : rows_, across = kAlongX ? rows_ : columns_;
-    PixelRange range{std::max(first_sample(a.u), along.begin), std::min(first_sample(b.u), along.end)};
-    if (range.begin >= range.end) return;
-    const std::int64_t du = b.u - a.u, dv = b.v - a.v, dz = b.z - a.z;
-    const std::int64_t n0 = a.v * du + dv * (kHalf - a.u);
-    const auto [low, high] = std::minmax({pixel_of(a.v), pixel_of(b.v)});
-    if (low < across.begin || high >= across.end) range = clip_to(range, across, n0, dv, du);
-    if (range.begin >= range.end) return;
-
-    const std::int64_t done = range.begin * kSub + kHalf - a.u;
-    Quotient v(n0 + dv * kSub * range.begin, du * kSub, dv * kSub);
-    Quotient z(2 * (a.z * du + dz * done) + du, 2 * du, 2 * dz * kSub);
-    for (std::int64_t u = range.begin; u < range.end; ++u, v.advance(), z.advance())
-      test_and_write(kAlongX ? u : v.value(), kAlongX ? v.value() : u, z.value(), payload);
+  void draw_between(const ScreenTriangle& t, int i, int j) const {
+    const bool along_x = std::abs(t.x_sub[j] - t.x_sub[i]) >= std::abs(t.y_sub[j] - t.y_sub[i]);
+    const std::int32_t *const us = along_x ? t.x_sub : t.y_sub, *const vs = along_x ? t.y_sub : t.x_sub;
+    if (us[i] > us[j]) std::swap(i, j);
+    const Interval along = along_x ? columns_ : rows_;
+    const int begin = std::max(first_sample(us[i]), along.begin),
+              end = std::min(first_sample(us[j]), along.end);
+    if (begin >= end) return;
+    const std::int64_t du = us[j] - us[i], dv = vs[j] - vs[i], dz = std::int64_t{t.z[j]} - t.z[i];
+    const std::int64_t done = sample_sub(begin) - us[i];
+    Quotient v(vs[i] * du + dv * done, du * kSub, dv * kSub);
+    Quotient z(2 * (t.z[i] * du + dz * done) + du, 2 * du, 2 * dz * kSub);
+    for (int u = begin; u < end; ++u, v.advance(), z.advance())
+      test_and_write(along_x ? u : v.value(), along_x ? v.value() : u, z.value(), t.payload);
   }
 
   FrameView frame_;

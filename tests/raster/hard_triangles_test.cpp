@@ -23,65 +23,49 @@ std::int64_t inverse(std::int64_t a, std::int64_t m) {
   return (t0 + m) % m;
 }
 
-std::int32_t i32(std::int64_t v) {
-  return static_cast<std::int32_t>(v);
-}
-
 struct EdgeStart {
-  std::int64_t x, y, dx;  // sub-units; dx to the edge's end
+  std::int32_t x, y, dx;  // sub-units; dx to the edge's end
 };
 // The start p of an edge of height `dy` sub-units that crosses the sample's row rest / (256 dy) px to the
-// right of the sample: (p.x - sample_x) dy + n dx = rest, where p is n >= `above` sub-units above the sample.
-EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t rest, std::int32_t dy,
-                      std::int64_t above) {
-  std::int64_t n = above;
-  while (std::gcd(n, std::int64_t{dy}) != 1) ++n;  // moves p up
+// right of the sample: (p.x - sample_x) dy + n dx = rest, where p is n >= dy / 2 sub-units above the sample.
+EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t rest, std::int64_t dy) {
+  std::int64_t n = dy / 2;
+  while (std::gcd(n, dy) != 1) ++n;  // moves p up
   std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
   if (dx > dy / 2) dx -= dy;
-  return {sample_x + (rest - n * dx) / dy, sample_y - n, dx};
+  const auto left = (rest - n * dx) / dy;
+  EXPECT_EQ(left * dy + n * dx, rest);
+  return {sample_x + static_cast<std::int32_t>(left), sample_y - static_cast<std::int32_t>(n),
+          static_cast<std::int32_t>(dx)};
 }
 
-TEST_P(EveryBackend, ResolvesTallEdgesNextToASample) {
-  constexpr int kWidth = 80, kHeight = 70;
-  std::vector<ScreenTriangle> triangles;
-  std::uint32_t id = 0;
-  for (const std::int32_t dy : {2 * kGuardSub - 101, kGuardSub + 1, 131'071, 8'191})
-    for (const int y : {0, 33, 69})
-      for (const std::int64_t rest : {-1, 0, 1})
-        for (const int third_x : {-kGuardSub, kGuardSub}) {
-          const std::int32_t sample_x = sample_sub(y * 7 % kWidth), sample_y = sample_sub(y), top = -dy / 2;
-          const auto [px, py, dx] = edge_beside(sample_x, sample_y, rest, dy, sample_y - top);
-          ASSERT_EQ((px - sample_x) * dy + (sample_y - py) * dx, rest);
-          triangles.push_back(
-              {{i32(px), i32(px + dx), third_x}, {i32(py), i32(py + dy), 1000}, {5000, 6000 + id, 7000}, id});
-          ++id;
-        }
-  for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(t.payload));
-}
-
-TEST_P(EveryBackend, ResolvesSmallTrianglesNextToASample) {
-  // Sides just below 16 px, in an image of 8 x 8 px: the steepest edges that small triangles can have. An
-  // edge's value is rounded down to whole pixels: 0 … 255 count as 0.
-  constexpr int kSide = 8;
-  std::vector<ScreenTriangle> triangles;
-  for (const std::int32_t dy : {4'095, 4'093, 2'731})
-    for (const int x : {0, 4, 7})
-      for (const int y : {0, 3, 7})
-        for (const std::int64_t rest : {-256, -255, -1, 0, 1, 255, 256})
+TEST_P(EveryBackend, ResolvesEdgesNextToASample) {
+  struct Case {
+    int side;  // of the image, px
+    std::vector<std::int32_t> heights;
+    std::vector<std::int64_t> rests;
+    std::int32_t right, down;  // from the edge to the third vertex, sub-units
+  };
+  // Tall edges; then sides just below 16 px, the steepest edges that small triangles can have. An edge's
+  // value is rounded down to whole pixels: 0 … 255 count as 0.
+  const Case cases[] = {
+      {70, {2 * kGuardSub - 40'001, kGuardSub + 1, 131'071, 8'191}, {-1, 0, 1}, 2 * kGuardSub, 1000},
+      {8, {4'095, 4'093, 2'731}, {-256, -255, -1, 0, 1, 255, 256}, 1'900, 700}};
+  for (const auto& [side, heights, rests, right, down] : cases)
+    for (const std::int32_t dy : heights)
+      for (const std::int64_t rest : rests)
+        for (const int row : {0, side / 2, side - 1})
           for (const bool across : {false, true}) {
-            const auto [px, py, dx] = edge_beside(sample_sub(x), sample_sub(y), rest, dy, dy / 2);
-            ASSERT_EQ((px - sample_sub(x)) * dy + (sample_sub(y) - py) * dx, rest);
-            for (const std::int64_t third_x :
-                 {std::min(px, px + dx) - 1'900, std::max(px, px + dx) + 1'900}) {
-              ScreenTriangle t{{i32(px), i32(px + dx), i32(third_x)},
-                               {i32(py), i32(py + dy), i32(py + 700)},
+            const auto [x, y, dx] = edge_beside(sample_sub(row * 5 % side), sample_sub(row), rest, dy);
+            for (const std::int32_t third_x : {std::min(x, x + dx) - right, std::max(x, x + dx) + right}) {
+              ScreenTriangle t{{x, x + dx, std::clamp(third_x, -kGuardSub, kGuardSub)},
+                               {y, y + dy, y + down},
                                {5000, 6000, 7000},
-                               static_cast<std::uint32_t>(triangles.size())};
+                               1};
               if (across) std::swap(t.x_sub, t.y_sub);
-              triangles.push_back(t);
+              expect_oracle(std::span(&t, 1), side, side, std::to_string(dy) + ", " + std::to_string(rest));
             }
           }
-  for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kSide, kSide, std::to_string(t.payload));
 }
 
 // A triangle with its right angle at the upper left and depth z(x, y) at its vertices; all in px. By default
@@ -177,26 +161,6 @@ TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
     for (auto* field : {t.x_sub, t.y_sub}) std::rotate(field, field + id % 3, field + 3);
     expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(id));
   }
-}
-
-TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {
-  // Slopes of about 1 in 4096, below which spans in tiles take another code path, and less.
-  Random random(5);
-  std::vector<ScreenTriangle> triangles;
-  for (std::uint32_t id = 0; id < 400; ++id) {
-    const std::int32_t x = between(random, -2000, 2000), y = between(random, 0, 70 * kSub),
-                       dy = between(random, 1, 600);
-    const std::int32_t dx = std::min(between(random, 4090, 4102) * dy, kGuardSub);
-    triangles.push_back({{x, x + dx, between(random, 0, 100 * kSub)},
-                         {y, y + (id % 2 == 0 ? dy : -dy), y + between(random, -900, 900)},
-                         {kDepthHead + id * 1000, kDepthHead + 90'000, kDepthHead + 400'000 - id * 1000},
-                         id});
-    if (id % 3 == 0)
-      for (auto& x_sub : triangles.back().x_sub) x_sub = 90 * kSub - x_sub;
-  }
-  for (auto& t : triangles)
-    for (auto& x_sub : t.x_sub) x_sub = std::clamp(x_sub, -kGuardSub, kGuardSub);
-  expect_oracle(triangles, 90, 70, "almost horizontal");
 }
 
 }  // namespace
