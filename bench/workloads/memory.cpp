@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "lab/measure.h"
+#include "lab/cases/measure.h"
 
 namespace edgewise::bench {
 

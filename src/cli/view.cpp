@@ -21,7 +21,7 @@
 #include "support/printable.h"
 #include "support/progress.h"
 #include "viewer/demos.h"
-#include "viewer/panel.h"
+#include "viewer/panel/panel.h"
 #include "viewer/session.h"
 #include "viewer/window.h"
 

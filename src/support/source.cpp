@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/atomic_file.h"
 #include "core/input_file.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
+#include "files/atomic_file.h"
 #include "support/console.h"
 
 namespace edgewise::tools {

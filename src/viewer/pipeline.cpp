@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "edgewise/contract.h"
+#include "files/pictures.h"
 #include "frontend/shade.h"
-#include "image/pictures.h"
+#include "lab/cases/measure.h"
 #include "lab/clipping/truth.h"
 #include "lab/coverage/score.h"
-#include "lab/measure.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
 #include "viewer/annotations.h"

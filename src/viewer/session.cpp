@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "edgewise/tri_file.h"
+#include "files/atomic_file.h"
 #include "lab/to_stream.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"

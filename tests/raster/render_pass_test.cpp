@@ -8,8 +8,8 @@
 #include "edgewise/draw.h"
 #include "edgewise/visible.h"
 #include "every_backend.h"
-#include "lab/guarded_frame.h"
-#include "lab/random_cases.h"
+#include "lab/cases/guarded_frame.h"
+#include "lab/cases/random_cases.h"
 #include "message_of.h"
 
 namespace edgewise {

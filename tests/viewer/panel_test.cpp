@@ -1,5 +1,6 @@
 // The panel by Dear ImGui: what it shows, that mouse and keys reach it, and that it never covers the picture.
-#include "viewer/panel.h"
+#ifdef EDGEWISE_IMGUI
+#include "viewer/panel/panel.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 #include <set>
 
 #include "viewer/demos.h"
-#include "viewer/imgui_paint.h"
+#include "viewer/panel/imgui_paint.h"
 #include "viewer/viewer_support.h"
 
 namespace edgewise::viewer {
@@ -329,3 +330,4 @@ TEST(ImguiPaint, FillsRectanglesExactly) {
 
 }  // namespace
 }  // namespace edgewise::viewer
+#endif

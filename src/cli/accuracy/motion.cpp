@@ -5,8 +5,8 @@
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
+#include "lab/cases/measure.h"
 #include "lab/coverage/changes.h"
-#include "lab/measure.h"
 
 namespace edgewise::tools {
 
