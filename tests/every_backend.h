@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "lab/cases/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/truth/oracle.h"
 #include "support.h"
 

@@ -15,8 +15,8 @@
 
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/cases/hard_triangles.h"
-#include "lab/cases/measure.h"
 #include "lab/cases/random_cases.h"
 #include "message_of.h"
 #include "run_program.h"

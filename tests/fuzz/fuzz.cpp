@@ -14,7 +14,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/draw.h"
 #include "frontend/mesh_clusters.h"
-#include "lab/cases/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/truth/oracle.h"
 
 namespace edgewise::fuzz {

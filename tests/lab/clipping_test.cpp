@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "lab/cases/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/coverage/score.h"
 #include "lab/lab_support.h"
 #include "lab/portable/portable.h"

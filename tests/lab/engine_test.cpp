@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lab/cases/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/coverage_support.h"
 #include "lab/engine/engine.h"
 

@@ -13,8 +13,8 @@
 #include "edgewise/builtin.h"
 #include "edgewise/draw.h"
 #include "frontend/mesh_clusters.h"
-#include "lab/choice.h"
 #include "lab/hidden_faces.h"
+#include "lab/stage_methods.h"
 #include "support.h"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/llc.h"
-#include "lab/cases/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "raster/kernels.h"
 #include "raster/policy.h"
 #include "raster/tiles.h"

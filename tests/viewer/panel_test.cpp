@@ -122,7 +122,7 @@ TEST(Panel, ShowsTheMethodsAndItsDropDownsFollowTheKeys) {
                                   std::pair('n', lab::methods_of(lab::Family::facing))})
     for (std::size_t i = 0; i < 3; ++i) {
       shown.type(std::string(1, key));
-      const lab::Choice& c = shown.session().side(0).choice;
+      const lab::StageMethods& c = shown.session().side(0).choice;
       const std::string_view now = key == 'b'   ? c.coverage->info.name
                                    : key == 'x' ? c.clipping->info.name
                                    : key == 'z' ? c.visibility->info.name

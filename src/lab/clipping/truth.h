@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lab/clipping/clipping.h"
-#include "lab/truth/ball.h"
+#include "lab/truth/ball_arithmetic.h"
 
 namespace edgewise::lab {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/cases/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/cracks.h"
 #include "lab/peers/peer.h"

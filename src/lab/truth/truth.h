@@ -16,7 +16,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/screen_triangle.h"
 #include "lab/method.h"
-#include "lab/truth/ball.h"
+#include "lab/truth/ball_arithmetic.h"
 
 namespace edgewise::lab {
 

@@ -151,7 +151,7 @@ class Panel::Contents {
   void methods() {
     const tools::Size size = session_->side_size();
     const Side& side = session_->side(state().active);
-    const lab::Choice& c = side.choice;
+    const lab::StageMethods& c = side.choice;
     text(kStrong, "{}, {} x {} px", tools::printable(state().scene), size.width, size.height);
     choice("pictures", 'v', {{"one"}, {"side by side"}, {"difference"}},
            static_cast<std::size_t>(state().arrangement));

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/random.h"
-#include "lab/coverage/changes.h"
+#include "lab/coverage/pixel_changes.h"
 #include "lab/coverage/score.h"
 #include "lab/sweeps/sweeps.h"
 #include "scene/streams.h"
@@ -178,8 +178,8 @@ Measured measure_pan(double speed_px, bool quick) {
   constexpr int kMargin = 16;
   constexpr Window window{64, 64, kMargin, kMargin};  // onto the middle of the mesh
   const int all = static_cast<int>(kMargin / speed_px), frames = quick ? std::min(128, all) : all;
-  Changes truth;
-  std::vector<Changes> changes(methods.size());
+  PixelChanges truth;
+  std::vector<PixelChanges> changes(methods.size());
   std::vector<Run> runs;
   for (int frame = 0; frame < frames; ++frame) {
     const double way = frame * speed_px;

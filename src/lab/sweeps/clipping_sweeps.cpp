@@ -1,8 +1,8 @@
 // Clipping sweeps: the distance of the near plane, the distance of a vertex from the camera's plane, and that
 // of camera and scene from the origin.
 
-#include "lab/clipping/clipping.h"
 #include "core/trigonometry.h"
+#include "lab/clipping/clipping.h"
 #include "lab/sweeps/sweeps.h"
 
 namespace edgewise::lab {

@@ -1,4 +1,4 @@
-#include "lab/choice.h"
+#include "lab/stage_methods.h"
 
 #include <algorithm>
 
@@ -34,11 +34,11 @@ const FacingMethod& find_facing_method(std::string_view name) {
   return find(facing_methods(), "facing test", name);
 }
 
-Choice our_choice(std::string_view backend) {
+StageMethods our_choice(std::string_view backend) {
   return {&find_drawing_method(find_backend(backend).name)};
 }
 
-bool put(std::string_view method, Choice& choice) {
+bool put(std::string_view method, StageMethods& choice) {
   const auto put_at = [&](auto methods, auto& stage) {
     const auto* const found = found_in(methods, method);
     if (found != nullptr) stage = found;
@@ -48,9 +48,9 @@ bool put(std::string_view method, Choice& choice) {
          put_at(visibility_methods(), choice.visibility) || put_at(facing_methods(), choice.facing);
 }
 
-Drawn drawable_part(const Choice& choice, bool stream) {
+Drawn drawable_part(const StageMethods& choice, bool stream) {
   if (stream) {
-    const Choice only_coverage{choice.coverage};
+    const StageMethods only_coverage{choice.coverage};
     if (choice == only_coverage) return {choice, {}};
     return {only_coverage, "a stream has no camera: clipping, visibility and facing stay ours"};
   }
@@ -61,7 +61,7 @@ Drawn drawable_part(const Choice& choice, bool stream) {
   return drawn;
 }
 
-std::string describe(const Choice& choice) {
+std::string describe(const StageMethods& choice) {
   std::string names;
   const auto add = [&](bool shown, const MethodInfo& info) {
     if (!shown) return;

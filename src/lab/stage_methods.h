@@ -12,7 +12,7 @@
 
 namespace edgewise::lab {
 
-struct Choice {
+struct StageMethods {
   const CoverageMethod* coverage = nullptr;
   const ClippingMethod* clipping = &clipping_methods().front();
   const VisibilityMethod* visibility = &visibility_methods().front();
@@ -26,30 +26,30 @@ struct Choice {
   bool fills() const { return coverage->fills; }
   bool ours() const { return our_coverage() && our_clipping() && our_visibility() && our_facing(); }
 
-  bool operator==(const Choice&) const = default;
+  bool operator==(const StageMethods&) const = default;
 };
 
 // This backend for coverage, and the library's methods for the other stages. Throws like the finders below.
-Choice our_choice(std::string_view backend);
+StageMethods our_choice(std::string_view backend);
 // All throw std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const ClippingMethod& find_clipping_method(std::string_view name);
 const VisibilityMethod& find_visibility_method(std::string_view name);
 const FacingMethod& find_facing_method(std::string_view name);
 
 // Sets the stage of `choice` to which the named method belongs; false if no method has this name.
-bool put(std::string_view method, Choice& choice);
+bool put(std::string_view method, StageMethods& choice);
 
 // The part of a choice that can be drawn, and the reason if that is not all of it.
 struct Drawn {
-  Choice choice;
+  StageMethods choice;
   std::string because;  // empty if it is all
 };
 // Streams keep only the coverage method: they are clipped already, and have no camera for facing tests and
 // view distances. A visibility method brings exact coverage of its own, so it replaces an inexact coverage
 // method.
-Drawn drawable_part(const Choice& choice, bool stream);
+Drawn drawable_part(const StageMethods& choice, bool stream);
 
 // The names of the methods that are not the library's, joined by " + "; the backend's name if there are none.
-std::string describe(const Choice& choice);
+std::string describe(const StageMethods& choice);
 
 }  // namespace edgewise::lab

@@ -1,4 +1,4 @@
-#include "lab/cases/measure.h"
+#include "lab/cases/frame_comparison.h"
 
 #include <algorithm>
 #include <bit>

@@ -10,7 +10,7 @@
 
 namespace edgewise::lab {
 
-class Changes {
+class PixelChanges {
  public:
   // The triangle at each pixel of the next frame; all frames have one size.
   void add(std::vector<std::uint32_t> picture) {
@@ -23,7 +23,7 @@ class Changes {
     for (const std::uint32_t count : count_) sum += count;
     return sum;
   }
-  std::uint64_t beyond(const Changes& truth) const {
+  std::uint64_t beyond(const PixelChanges& truth) const {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < count_.size(); ++i)
       sum += count_[i] > truth.count_[i] ? count_[i] - truth.count_[i] : 0;
