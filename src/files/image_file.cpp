@@ -49,7 +49,7 @@ void write_png(std::ostream& out, const fs::path& path, const AnyPicture& pictur
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   const auto encoded = std::make_unique_for_overwrite<char[]>(size);
   if (!png_image_write_to_memory(&png, encoded.get(), &size, 0, samples, 0, nullptr))
-    throw file_error(path, png.message);
+    throw FileError(path, png.message);
   out.write(encoded.get(), static_cast<std::streamsize>(size));
 }
 
@@ -102,7 +102,7 @@ class PngReader {
   // libpng reports an error by a jump to here, so the calls must not own anything.
   template <typename Calls>
   [[gnu::noinline]] void run(const Calls& calls) {
-    if (setjmp(png_jmpbuf(png_)) != 0) throw file_error(path_, message_.data());
+    if (setjmp(png_jmpbuf(png_)) != 0) throw FileError(path_, message_.data());
     calls();
   }
   static void fail(png_structp png, png_const_charp message) {
@@ -143,7 +143,7 @@ bool is_image_path(const fs::path& path) {
 }
 
 void write_image(const fs::path& path, const Image& image) {
-  if (!is_image_path(path)) throw file_error(path, "is neither a .png nor a .ppm");
+  if (!is_image_path(path)) throw FileError(path, "is neither a .png nor a .ppm");
   write_image(path, image, *format_of(path));
 }
 
@@ -157,8 +157,7 @@ void write_image(const fs::path& path, const Image& image, Format format) {
 }
 
 void write_grey16(const fs::path& path, const Grey16& image) {
-  if (format_of(path) != Format::png)
-    throw file_error(path, "is not a .png, the only format for 16-bit grey");
+  if (format_of(path) != Format::png) throw FileError(path, "is not a .png, the only format for 16-bit grey");
   write_whole(path, image, image.pixels.size(), [&](std::ostream& out) {
     write_png(out, path, image, PNG_FORMAT_LINEAR_Y, image.pixels.data());
   });
@@ -171,7 +170,7 @@ void write_pfm(const fs::path& path, const DepthMap& map) {
 DepthMap read_pfm(const fs::path& path) {
   const DefaultFloatState state;
   FloatMap map = read_pfm(path, open_input(path));
-  if (map.channels != 1) throw file_error(path, "has three channels; a depth map has one");
+  if (map.channels != 1) throw FileError(path, "has three channels; a depth map has one");
   return {map.width, map.height, std::move(map.values)};
 }
 
@@ -183,7 +182,7 @@ Picture read_picture(const fs::path& path, std::vector<std::string>* warnings) {
     if (starts_with(file, magic)) return read_ppm(path, std::move(file));
   for (const char* magic : {"Pf", "PF"})
     if (starts_with(file, magic)) return read_pfm(path, std::move(file));
-  throw file_error(path, "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM");
+  throw FileError(path, "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM");
 }
 
 Image to_image(const fs::path& path, const Picture& picture) {
@@ -198,7 +197,7 @@ Image to_image(const fs::path& path, const Picture& picture) {
     return image;
   }
   const auto& map = std::get<FloatMap>(picture);
-  if (map.channels != 3) throw file_error(path, "is a depth map, which read_pfm() reads");
+  if (map.channels != 3) throw FileError(path, "is a depth map, which read_pfm() reads");
   const auto reduced = [](float value) {  // NaN becomes 0
     return value > 0.0f ? static_cast<std::uint32_t>(std::min(value, 1.0f) * 255.0f + 0.5f) : 0u;
   };
@@ -235,7 +234,7 @@ Grey16 to_grey16(const Samples& grey) {
 Grey16 read_grey16(const fs::path& path, std::vector<std::string>* warnings) {
   const Picture picture = read_picture(path, warnings);
   const auto* const samples = std::get_if<Samples>(&picture);
-  if (samples == nullptr || !samples->grey) throw file_error(path, "is no picture of grey");
+  if (samples == nullptr || !samples->grey) throw FileError(path, "is no picture of grey");
   return to_grey16(*samples);
 }
 

@@ -130,11 +130,11 @@ void for_each_statement(std::string_view text, Handle&& handle) {
 std::string read_text(const std::filesystem::path& path) {
   InputFile file = open_input(path);
   if (file.size > kMaxObjBytes)
-    throw file_error(
-        path, "has " + std::to_string(file.size) + " bytes, more than " + std::to_string(kMaxObjBytes));
+    throw FileError(path,
+                    "has " + std::to_string(file.size) + " bytes, more than " + std::to_string(kMaxObjBytes));
   std::string text(file.size, '\0');
   if (!file.stream->read(text.data(), static_cast<std::streamsize>(text.size())))
-    throw file_error(path, "cannot be read to its end");
+    throw FileError(path, "cannot be read to its end");
   return text;
 }
 
@@ -147,7 +147,7 @@ std::uint32_t to_rgb(glm::dvec3 colour) {
 using Materials = std::map<std::string, std::uint32_t, std::less<>>;  // name → Kd
 
 void read_materials(const std::filesystem::path& path, Materials& materials) {
-  if (descriptor_of(path)) throw file_error(path, "is not a regular file");  // may wait, or be the OBJ itself
+  if (descriptor_of(path)) throw FileError(path, "is not a regular file");  // may wait, or be the OBJ itself
   const std::string text = read_text(path);
   std::uint32_t* colour = nullptr;
   const auto add = [&](std::string_view keyword, std::string_view rest, std::size_t line) {
@@ -164,7 +164,7 @@ void read_materials(const std::filesystem::path& path, Materials& materials) {
   try {
     for_each_statement(text, add);
   } catch (const std::invalid_argument& error) {
-    throw file_error(path, error.what());
+    throw FileError(path, error.what());
   }
 }
 
@@ -443,9 +443,9 @@ Scene read_obj(const std::filesystem::path& path, const ObjOptions& options, Obj
     reader.read(read_text(path));
     scene.meshes.push_back(reader.make_mesh(options.recentre, out.offset));
   } catch (const std::invalid_argument& error) {
-    throw file_error(path, error.what());
+    throw FileError(path, error.what());
   }
-  for (std::string& warning : out.warnings) warning = file_error(path, warning).what();
+  for (std::string& warning : out.warnings) warning = FileError(path, warning).what();
   scene.instances.emplace_back();
   frame_camera(scene);
   return scene;

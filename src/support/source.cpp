@@ -90,7 +90,7 @@ Source load_source(const std::string& name_or_path, const SceneRequest& request,
     try {
       fit(scene);
     } catch (const std::invalid_argument& error) {
-      throw file_error(path, error.what());
+      throw FileError(path, error.what());
     }
   }
   frame_camera(scene, static_cast<double>(request.width) / request.height);

@@ -13,8 +13,6 @@
 #include "edgewise/builtin.h"
 #include "edgewise/draw.h"
 #include "frontend/mesh_clusters.h"
-#include "lab/hidden_faces.h"
-#include "lab/stage_methods.h"
 #include "support.h"
 
 namespace {
@@ -87,6 +85,15 @@ TEST_P(Allocations, OfABackendHappenInTheFirstFrameOnly) {
       };
       expect_in_the_first_frame_only(draw, std::string(family) + ", threads: " + std::to_string(threads));
     }
+  const Drawable stream = find_scene("micro").make({.width = kWidth, .height = kHeight, .scale = 0.01});
+  const FrontendOptions options{.width = kWidth, .height = kHeight, .cull = Cull::none};
+  for (const int threads : {1, 2}) {
+    Frontend frontend;
+    const auto draw_it = [&] {
+      draw(stream, frontend, options, *backend, frame.view(), {testing::kBackground}, {.threads = threads});
+    };
+    expect_in_the_first_frame_only(draw_it, "a stream, threads: " + std::to_string(threads));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::all_drawers()),
@@ -101,20 +108,6 @@ TEST(FrontendAllocations, HappenInTheFirstFrameOnly) {
       EXPECT_GT(allocations_in(run), 0u) << info.name;
       expect_in_the_first_frame_only(run, std::string(info.name) + ", threads: " + std::to_string(threads));
     }
-  }
-}
-
-TEST_P(Allocations, OfAFrameHappenInTheFirstFrameOnly) {
-  const Drawable stream = find_scene("micro").make({.width = 320, .height = 200, .scale = 0.01});
-  const auto backend = testing::find_drawer(GetParam()).make();
-  Framebuffer frame(320, 200);
-  const FrontendOptions options{.width = 320, .height = 200, .cull = Cull::none};
-  for (const int threads : {1, 2}) {
-    Frontend frontend;
-    const auto draw_it = [&] {
-      draw(stream, frontend, options, *backend, frame.view(), {testing::kBackground}, {.threads = threads});
-    };
-    expect_in_the_first_frame_only(draw_it, "threads: " + std::to_string(threads));
   }
 }
 
@@ -144,12 +137,6 @@ TEST(FrontendAllocations, DoNotHappenWhenTheCameraTurns) {
       }
     }
   }
-}
-
-TEST(HiddenFacesAllocations, DoNotHappen) {
-  const Scene scene = std::get<Scene>(find_scene("cubes").make({}));
-  lab::HiddenFaces hidden(scene, lab::find_facing_method("normal_z"));
-  EXPECT_EQ(allocations_in([&] { hidden.drop(scene); }), 0u);
 }
 
 }  // namespace

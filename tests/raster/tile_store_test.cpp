@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/llc.h"
+#include "raster/llc.h"
 #include "lab/cases/frame_comparison.h"
 #include "raster/kernels.h"
 #include "raster/policy.h"

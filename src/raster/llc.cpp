@@ -1,20 +1,18 @@
-#include "core/llc.h"
+#include "raster/llc.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <string>
 
 namespace edgewise {
 
 // sysconf() is no alternative: glibc 2.36 adds up all last-level caches of an AMD socket. Nor is CPUID: some
 // virtual machines hide its cache leaves, while Linux knows the sizes.
-std::size_t largest_cache_bytes(const char* folder) {
-  constexpr int kMostCaches = 10;
+std::size_t largest_cache_bytes(const std::string& folder) {
   std::size_t largest = 0;
-  for (int i = 0; i < kMostCaches; ++i) {
-    char path[256];
-    std::snprintf(path, sizeof(path), "%s/index%d/size", folder, i);
-    std::FILE* const file = std::fopen(path, "re");
+  for (char index = '0'; index <= '9'; ++index) {
+    std::FILE* const file = std::fopen((folder + "/index" + index + "/size").c_str(), "re");
     if (file == nullptr) continue;  // where Linux does not know this cache's size
     unsigned kib = 0;
     char unit = 0;
@@ -27,7 +25,7 @@ std::size_t largest_cache_bytes(const char* folder) {
 
 std::size_t llc_bytes() {
   constexpr std::size_t kUnknown = std::size_t{8} << 20;
-#if defined(__linux__)
+#ifdef __linux__
   // Not a static that is initialized once: a child forked during that would wait for its lock.
   static constinit std::atomic<std::size_t> known{0};
   if (known == 0) {
