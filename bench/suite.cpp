@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "lab/choice.h"
+#include "lab/stage_methods.h"
 #include "scene/polygon.h"
 #include "support/options.h"
 #include "support/printable.h"

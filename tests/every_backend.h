@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "lab/measure.h"
-#include "lab/oracle.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/truth/oracle.h"
 #include "support.h"
 
 namespace edgewise::testing {

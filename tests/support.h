@@ -15,8 +15,8 @@
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
-#include "lab/hard_triangles.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/cases/hard_triangles.h"
 
 namespace edgewise::testing {
 

@@ -10,7 +10,7 @@
 #include "bench/models/cost_kernels.h"
 #include "core/parallel.h"
 #include "edgewise/contract.h"
-#include "lab/exact_spans.h"
+#include "lab/cases/exact_spans.h"
 
 namespace edgewise::bench {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
 
 namespace edgewise::bench {
 

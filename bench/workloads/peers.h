@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/row.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::bench {
 

@@ -41,10 +41,9 @@ std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& fi
       scenes.back()->least = lab::pipeline_of(levels);
     }
   } catch (const nlohmann::json::exception& error) {
-    throw file_error(file,
-                     fmt::format("not a list of what `edgewise needs --json` prints: {}", error.what()));
+    throw FileError(file, fmt::format("not a list of what `edgewise needs --json` prints: {}", error.what()));
   } catch (const std::invalid_argument& error) {
-    throw file_error(file, error.what());
+    throw FileError(file, error.what());
   }
   return scenes;
 }

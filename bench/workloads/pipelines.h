@@ -24,7 +24,7 @@ struct PipelineScene {
   lab::PipelineMemory memory;
 };
 
-// Of a file with a list of what `edgewise needs --json` prints about built-in scenes. Throws file_error().
+// Of a file with a list of what `edgewise needs --json` prints about built-in scenes. Throws FileError.
 std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& file);
 
 struct PipelineDraw {

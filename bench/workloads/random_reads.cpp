@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/llc.h"
+#include "raster/llc.h"
 #include "core/random.h"
 
 namespace edgewise::bench {

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "lab/cases/frame_comparison.h"
 #include "lab/engine/engine.h"
-#include "lab/measure.h"
 
 namespace edgewise::bench {
 

@@ -8,7 +8,7 @@
 
 #include "bench/row.h"
 #include "bench/workloads/peers.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "raster/tiles.h"
 
 namespace edgewise::bench {

@@ -1,7 +1,7 @@
 #include "bench/workloads/workload.h"
 
 #include "edgewise/draw.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
 
 namespace edgewise::bench {
 

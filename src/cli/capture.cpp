@@ -8,9 +8,9 @@
 
 #include "cli/commands.h"
 #include "cli/describe.h"
-#include "core/atomic_file.h"
 #include "core/input_file.h"
 #include "edgewise/tri_file.h"
+#include "files/atomic_file.h"
 #include "lab/to_stream.h"
 #include "support/console.h"
 #include "support/options.h"

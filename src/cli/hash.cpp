@@ -12,7 +12,7 @@
 #include "cli/commands.h"
 #include "edgewise/draw.h"
 #include "edgewise/hash.h"
-#include "image/pictures.h"
+#include "files/pictures.h"
 #include "support/console.h"
 #include "support/json.h"
 #include "support/options.h"

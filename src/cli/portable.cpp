@@ -13,7 +13,7 @@
 #include "cli/commands.h"
 #include "edgewise/contract.h"
 #include "edgewise/draw.h"
-#include "image/pictures.h"
+#include "files/pictures.h"
 #include "lab/portable/portable.h"
 #include "support/console.h"
 #include "support/json.h"

@@ -21,7 +21,7 @@
 #include "support/printable.h"
 #include "support/progress.h"
 #include "viewer/demos.h"
-#include "viewer/panel.h"
+#include "viewer/panel/panel.h"
 #include "viewer/session.h"
 #include "viewer/window.h"
 
@@ -48,7 +48,7 @@ void print_saved(viewer::Session& session) {
 
 struct ViewOptions {
   std::string scene = "cube", keys, output, folder = ".";
-  lab::Choice choice = lab::our_choice("tiled");
+  lab::StageMethods choice = lab::our_choice("tiled");
   SceneOptions options;
   ExecutionOptions execution;
   std::optional<glm::vec3> axis;
@@ -287,17 +287,18 @@ Action add_view(CLI::App& command, viewer::ShowWindow show_window) {
   command.add_flag("--terminal", o->terminal,
                    "Show it in this terminal (needs true colour) instead of a window");
   const auto add_stage = [&](const char* option, const char* help, const auto& find,
-                             auto lab::Choice::*stage) {
+                             auto lab::StageMethods::*stage) {
     add_parsed(command, option, "NAME", help, [o, find, stage](const std::string& name) {
       o->choice.*stage = &find(name);
     })->group("Initial methods");
   };
   add_stage("--coverage", "Backend or coverage method (tiled)", lab::find_drawing_method,
-            &lab::Choice::coverage);
-  add_stage("--clipping", "Clipping method (near_guard)", lab::find_clipping_method, &lab::Choice::clipping);
+            &lab::StageMethods::coverage);
+  add_stage("--clipping", "Clipping method (near_guard)", lab::find_clipping_method,
+            &lab::StageMethods::clipping);
   add_stage("--visibility", "Visibility method (contract31)", lab::find_visibility_method,
-            &lab::Choice::visibility);
-  add_stage("--facing", "Facing test (snapped_area)", lab::find_facing_method, &lab::Choice::facing);
+            &lab::StageMethods::visibility);
+  add_stage("--facing", "Facing test (snapped_area)", lab::find_facing_method, &lab::StageMethods::facing);
   add_parsed(command, "--axis", "X,Y,Z", "Rotation axis of the objects (the first object's)",
              [o](const std::string& text) {
                const glm::dvec3 axis = parse_vector("--axis", text), size = glm::abs(axis);

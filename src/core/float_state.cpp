@@ -1,12 +1,12 @@
 #include "core/float_state.h"
 
-#if defined(__x86_64__)
+#ifdef __x86_64__
 #include <xmmintrin.h>
 #endif
 
 namespace edgewise {
 
-#if defined(__x86_64__)
+#ifdef __x86_64__
 // Saves only MXCSR: the library does not use x87, whose state is slow to change.
 DefaultFloatState::DefaultFloatState() : callers_(_mm_getcsr()) {
   constexpr unsigned kDefault = _MM_MASK_MASK | _MM_ROUND_NEAREST | _MM_FLUSH_ZERO_OFF;
@@ -15,7 +15,7 @@ DefaultFloatState::DefaultFloatState() : callers_(_mm_getcsr()) {
 DefaultFloatState::~DefaultFloatState() {
   if (_mm_getcsr() != callers_) _mm_setcsr(callers_);
 }
-#elif !defined(__wasm__)
+#else
 DefaultFloatState::DefaultFloatState() {
   std::fegetenv(&callers_);
   std::fesetenv(FE_DFL_ENV);

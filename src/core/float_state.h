@@ -1,9 +1,7 @@
 // The floating-point state of a thread: rounding, trapped exceptions, denormals that are flushed to zero.
 #pragma once
 
-#ifndef __wasm__  // it has one state
 #include <cfenv>
-#endif
 
 namespace edgewise {
 
@@ -13,21 +11,16 @@ namespace edgewise {
 // have changed the state, and bits of the picture depend on it.
 class DefaultFloatState {
  public:
-#ifdef __wasm__
-  DefaultFloatState() {}
-#else
   // Not inline: compilers move arithmetic across a change of the state, but not across calls.
   DefaultFloatState();
   ~DefaultFloatState();
-#endif
   DefaultFloatState(const DefaultFloatState&) = delete;
   DefaultFloatState& operator=(const DefaultFloatState&) = delete;
 
-#if defined(__x86_64__)
  private:
+#ifdef __x86_64__
   unsigned callers_;  // MXCSR
-#elif !defined(__wasm__)
- private:
+#else
   std::fenv_t callers_;
 #endif
 };

@@ -1,3 +1,5 @@
+// WASI's C++ library has no file streams. No program there opens a file, so its linker drops the calls.
+#ifndef __wasm__
 #include "core/input_file.h"
 
 #include <unistd.h>
@@ -28,7 +30,7 @@ std::string content_of(int descriptor, const fs::path& path) {
     if (count < 0) throw system_error(path, errno);
     content.append(block.data(), static_cast<std::size_t>(count));
     if (content.size() > kMaxObjBytes)
-      throw file_error(path, "has more than " + std::to_string(kMaxObjBytes) + " bytes");
+      throw FileError(path, "has more than " + std::to_string(kMaxObjBytes) + " bytes");
   }
 }
 
@@ -59,9 +61,9 @@ InputFile open_input(const fs::path& path) {
   if (fs::is_directory(status)) throw FileError(path, "is a directory", EISDIR);
   if (!fs::is_regular_file(status)) {
     const auto descriptor = descriptor_of(path);
-    if (!descriptor) throw file_error(path, "is not a regular file");
+    if (!descriptor) throw FileError(path, "is not a regular file");
     if (!fs::is_fifo(status) && !fs::is_socket(status) && isatty(*descriptor) == 0)
-      throw file_error(path, "is neither a regular file, a pipe nor a terminal");
+      throw FileError(path, "is neither a regular file, a pipe nor a terminal");
     std::string content = content_of(*descriptor, path);
     const std::uint64_t size = content.size();
     return {std::make_unique<std::istringstream>(std::move(content)), size};
@@ -92,3 +94,4 @@ std::string extension_of(const fs::path& path) {
 }
 
 }  // namespace edgewise
+#endif

@@ -21,9 +21,6 @@ struct FileError : std::runtime_error {
   std::string reason;
   int code;  // errno's; 0: the system reported none
 };
-inline FileError file_error(const std::filesystem::path& path, const std::string& reason) {
-  return {path, reason};
-}
 
 // What errno says. `what`, if not empty, precedes it: "cannot be written".
 FileError system_error(const std::filesystem::path& path, int error, std::string what = {});

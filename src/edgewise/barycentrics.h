@@ -56,5 +56,52 @@ struct BarycentricsView {
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
                   const BarycentricsView& out, const Execution& execution = {});
 
+namespace contract {
+
+// Rule 11 of the contract, barycentric coordinates. They are perspective-correct for the snapped
+// triangle. Let E_i be the unbiased edge value (rule 4) opposite vertex i at a sample that the triangle
+// covers: an integer >= 0. Let w_i > 0 be the w of that vertex, and s_ik the weight of the source triangle's
+// vertex k in it. Then the weight of the source triangle's vertex k at the sample is
+//   c_k / (c_0 + c_1 + c_2),  c_k = E_0 s_0k / w_0 + E_1 s_1k / w_1 + E_2 s_2k / w_2
+// which is u for k = 1 and v for k = 2. In a stream, w is 1. In a scene, w is the float by which x and y were
+// divided (rule 10), or a double for a vertex that the clipper placed. A vertex of the source triangle has
+// weight 1 of itself. A new vertex lies at t between two others, where t in [0, 1] is the double by which the
+// clipper interpolates: its weights are those of the two, times 1 - t and t. If several pieces of a source
+// triangle cover the sample, the first one counts.
+//
+// All terms are >= 0, so relative errors only add up. In units of 2^-53:
+//   s_ik: 1 - t, product and sum, for each of six planes           18
+//   c_k: quotient by w, product with E, two sums                   22
+//   u and v: 22, and 24 of the sum of the three, and the quotient  47
+// u is then rounded to a multiple of 2^-24, half to even. v is too, but to 1 - u at most. The exact sum of
+// the two is at most 1, so v is then off by no more than u is: |error of u, v| < 2^-25 + 2^-47. Floats hold
+// u, v, u + v <= 1 and 1 - u - v exactly.
+//
+// The distance along the view direction is
+//   (E_0 + E_1 + E_2) / (c_0 + c_1 + c_2)
+// Its relative error is below 4 + 24 + 1 units, and 2^-24 for the rounding to float. In a stream, and in a
+// parallel projection, each E_i is multiplied by the depth of vertex i, which is in [0, 1], and divided by
+// w_i.
+//
+// In a scene, w_i is rounded. With a relative error of w of at most e, each c_k errs by up to e:
+// - u changes by u (1 - u) 2 e / (1 - e) at most, and the distance by e / (1 - e).
+// - Let D be the vertex's distance from o (rule 10), and Lw the length of w's coefficients: 1 for a Camera
+// and
+//   an unscaled instance.
+// - In units of 2^-24, the first three terms of w are rounded six times. They are at most Lw times the length
+//   of d, which is at most 2 D. The fourth is rounded twice and is at most Lw D.
+// - The sum is 14 Lw D. So e / (1 - e) < 2^-20 Lw D / w while e < 1/16, and while o is at most 2^24 D away
+//   from the model's origin (rule 10).
+// - Other projections than the usual perspective add 2^-23: their fourth term is w at o larger.
+// - A vertex that the clipper placed has e < 2^-48 Lw D / w, with the D of the farthest corner.
+// So, for the largest D / w of the piece's vertices,
+//   |error of u, v| < 2^-25 + 2^-47 + 2^-21 Lw D / w
+//   |relative error of the distance| < 2^-24 + 2^-48 + 2^-20 Lw D / w
+inline constexpr double kWError = 0x1p-20;                      // relative, times Lw D / w
+inline constexpr double kBarycentricError = 0x1p-25 + 0x1p-47;  // absolute
+inline constexpr double kDistanceError = 0x1p-24 + 0x1p-48;     // relative, of distances from 2^-126 on
+
+}  // namespace contract
+
 }  // namespace edgewise
 #pragma GCC visibility pop

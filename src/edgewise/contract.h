@@ -78,7 +78,7 @@ static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} <<
 // the float distance w along the view direction:
 //   depth = far (w - near) / ((far - near) w)                   within 1/2 + 2^-19 units (frontend/fixed.h)
 // With matrices, the factor far / (far - near) is read from the projection. It is 1 for an infinite far
-// plane. If they are no usual perspective (camera.h), depth is z / w (rule 10). Inside a triangle, depth is
+// plane. If they are no usual perspective (camera.h), depth is z / w. Inside a triangle, depth is
 // the plane through its vertices, in fixed point with wrap-around:
 //   gx, gy   = floor(2^16 dz/dpx), floor(2^16 dz/dpy)           per pixel step, 16 fraction bits, mod 2^64
 //   middle   = floor(plane at the sample (32, 32) of the pixel's 64 x 64 cell + 1/2)        mod 2^32
@@ -157,82 +157,8 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
 // Rule 9, no contraction. Everything is built with -ffp-contract=off (no fused multiply-add), so the front
 // end's floats, and the double estimate above, are the same on every machine.
 
-// Rule 10, positions of a scene's vertices (frontend/view.h). The camera is subtracted from a vertex before
-// anything else is rounded. Let d be the vertex minus `origin`, which is the camera's position in model space
-// rounded to float; doubles transform what that rounding leaves. With f = height / (2 tan(fov_y / 2)), for an
-// unscaled instance, each row of
-//   x w = f x' + width / 2 w,  y w = f y' + height / 2 w,  w
-// has coefficients of length at most f + width (1 for w), and four terms that are rounded six times in float:
-// d, coefficient, product, three sums. Let D be the vertex' distance from the camera. The first three terms
-// add up to at most sqrt(3) D times that length. So does the fourth, if the camera is at most 2^24 D away
-// from the model's origin. Six roundings of 2^-24 and the division give, for a vertex in view,
-//   |error of x, y| < 2^-19 (f + 2 max(width, height)) D / w px
-// which is under 4 sub-units in 1920 x 1080 px at 45 degrees. A vertex counts as nearer than the near plane,
-// or as beyond another one, by its rounded coordinates, so it may be 2^-19 D off.
-//
-// Triangles that planes cut are transformed and cut in double, from their own vertices. Where w is the new
-// vertex' and D the distance of the farthest corner, the error of x and y is below
-//   2^-10 + 2^-50 (f + width) D / w px
-// where 2^-10 px is a float's rounding at the guard band. A corner that is not cut off keeps its rounded
-// position, as in the neighbouring triangles.
-//
-// With matrices (camera.h), the point o that is subtracted depends on the projection:
-// - Usual perspective: the camera's position.
-// - Parallel, where w is the same everywhere: the point nearest to the instance's origin on the axis from the
-//   middle of the near plane to that of the far plane. Only z changes along this axis.
-// - Others: a point of the view volume where w is smallest.
-// Let D be the vertex' distance from o, `side` the larger of width and height, and L, Lz and Lw the lengths
-// of the coefficients of x w or y w, of z, and of w. The fourth term is now at most `side` w larger, so
-//   |error of x, y| < 2^-19 ((L + side Lw) D / w + side) px
-// for a vertex in view of an unscaled instance whose origin is at most 2^24 D away from o. Depth uses z and w
-// computed in double. Only the rounding of d remains:
-//   |error of depth| < 2^-23 (Lz + Lw) D / w, and 1 unit
-// An instance's matrix whose columns are nearly dependent, but not orthogonal, is less precise: o is not
-// subtracted before its products are rounded.
-inline constexpr double kPositionError = 0x1p-19;
-
-// Rule 11, barycentric coordinates (edgewise/barycentrics.h). They are perspective-correct for the snapped
-// triangle. Let E_i be the unbiased edge value (rule 4) opposite vertex i at a sample that the triangle
-// covers: an integer >= 0. Let w_i > 0 be the w of that vertex, and s_ik the weight of the source triangle's
-// vertex k in it. Then the weight of the source triangle's vertex k at the sample is
-//   c_k / (c_0 + c_1 + c_2),  c_k = E_0 s_0k / w_0 + E_1 s_1k / w_1 + E_2 s_2k / w_2
-// which is u for k = 1 and v for k = 2. In a stream, w is 1. In a scene, w is the float by which x and y were
-// divided (rule 10), or a double for a vertex that the clipper placed. A vertex of the source triangle has
-// weight 1 of itself. A new vertex lies at t between two others, where t in [0, 1] is the double by which the
-// clipper interpolates: its weights are those of the two, times 1 - t and t. If several pieces of a source
-// triangle cover the sample, the first one counts.
-//
-// All terms are >= 0, so relative errors only add up. In units of 2^-53:
-//   s_ik: 1 - t, product and sum, for each of six planes           18
-//   c_k: quotient by w, product with E, two sums                   22
-//   u and v: 22, and 24 of the sum of the three, and the quotient  47
-// u is then rounded to a multiple of 2^-24, half to even. v is too, but to 1 - u at most. The exact sum of
-// the two is at most 1, so v is then off by no more than u is: |error of u, v| < 2^-25 + 2^-47. Floats hold
-// u, v, u + v <= 1 and 1 - u - v exactly.
-//
-// The distance along the view direction is
-//   (E_0 + E_1 + E_2) / (c_0 + c_1 + c_2)
-// Its relative error is below 4 + 24 + 1 units, and 2^-24 for the rounding to float. In a stream, and in a
-// parallel projection, each E_i is multiplied by the depth of vertex i, which is in [0, 1], and divided by
-// w_i.
-//
-// In a scene, w_i is rounded. With a relative error of w of at most e, each c_k errs by up to e:
-// - u changes by u (1 - u) 2 e / (1 - e) at most, and the distance by e / (1 - e).
-// - Let D be the vertex's distance from o (rule 10), and Lw the length of w's coefficients: 1 for a Camera
-// and
-//   an unscaled instance.
-// - In units of 2^-24, the first three terms of w are rounded six times. They are at most Lw times the length
-//   of d, which is at most 2 D. The fourth is rounded twice and is at most Lw D.
-// - The sum is 14 Lw D. So e / (1 - e) < 2^-20 Lw D / w while e < 1/16, and while o is at most 2^24 D away
-//   from the model's origin (rule 10).
-// - Other projections than the usual perspective add 2^-23: their fourth term is w at o larger.
-// - A vertex that the clipper placed has e < 2^-48 Lw D / w, with the D of the farthest corner.
-// So, for the largest D / w of the piece's vertices,
-//   |error of u, v| < 2^-25 + 2^-47 + 2^-21 Lw D / w
-//   |relative error of the distance| < 2^-24 + 2^-48 + 2^-20 Lw D / w
-inline constexpr double kWError = 0x1p-20;                      // relative, times Lw D / w
-inline constexpr double kBarycentricError = 0x1p-25 + 0x1p-47;  // absolute
-inline constexpr double kDistanceError = 0x1p-24 + 0x1p-48;     // relative, of distances from 2^-126 on
+// Rules 10 and 11 bound the errors of a scene's positions (camera.h) and of barycentric coordinates
+// (barycentrics.h), which floats hold.
 
 // Twice the signed area, in sub-units squared. Positive is clockwise on the y-down screen, which is the
 // front.

@@ -24,17 +24,16 @@ Size checked_size(const std::filesystem::path& path, std::uint64_t width, std::u
     return px >= 1 && px <= std::uint64_t{contract::kMaxImageSide};
   };
   if (!is_side(width) || !is_side(height))
-    throw file_error(path, "image size " + std::to_string(width) + "x" + std::to_string(height) +
-                               " is outside 1 to " + std::to_string(contract::kMaxImageSide));
+    throw FileError(path, "image size " + std::to_string(width) + "x" + std::to_string(height) +
+                              " is outside 1 to " + std::to_string(contract::kMaxImageSide));
   return {static_cast<int>(width), static_cast<int>(height)};
 }
 
 void check_pixels(const std::filesystem::path& path, int width, int height, std::size_t pixels) {
   const auto side = [](int px) { return static_cast<std::uint64_t>(std::max(px, 0)); };
   if (checked_size(path, side(width), side(height)).pixels() != pixels)
-    throw file_error(path, "cannot be written: " + std::to_string(pixels) +
-                               " pixels don't make an image of " + std::to_string(width) + "x" +
-                               std::to_string(height));
+    throw FileError(path, "cannot be written: " + std::to_string(pixels) + " pixels don't make an image of " +
+                              std::to_string(width) + "x" + std::to_string(height));
 }
 
 Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_view magics)
@@ -42,7 +41,7 @@ Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_vi
   std::string magic(2, '\0');
   file_.stream->read(magic.data(), 2);
   if (magic[0] == 'P' && magics.find(magic) != magics.npos) kind_ = magic[1], end_ = next();
-  if (!is_blank(end_)) throw file_error(path_, "does not start with " + std::string(magics));
+  if (!is_blank(end_)) throw FileError(path_, "does not start with " + std::string(magics));
 }
 
 // The next character. A comment counts as the line end behind it, even if it begins inside a word.
@@ -67,14 +66,14 @@ std::string Reader::word() {
   for (; word.size() < kMaxWord && end_ > ' ' && end_ <= '~'; end_ = next())
     word.push_back(static_cast<char>(end_));
   if (word.empty() || !(is_blank(end_) || (end_ == EOF && is_plain())))
-    throw file_error(path_, "malformed or truncated " + std::string(is_plain() ? "text" : "header"));
+    throw FileError(path_, "malformed or truncated " + std::string(is_plain() ? "text" : "header"));
   return word;
 }
 
 std::uint64_t Reader::integer(const char* noun) {
   const std::string text = word();
   const auto value = parsed<std::uint64_t>(text);
-  if (!value) throw file_error(path_, "malformed: '" + text + "' is not a " + noun);
+  if (!value) throw FileError(path_, "malformed: '" + text + "' is not a " + noun);
   return *value;
 }
 
@@ -86,13 +85,13 @@ Size Reader::size() {
 void Reader::begin_plain(std::uint64_t samples) {
   const std::uint64_t rest = end_ == EOF ? 0 : file_.size - static_cast<std::uint64_t>(file_.stream->tellg());
   if (rest + 1 < 2 * samples)  // each has a digit, and a blank before the next one
-    throw file_error(path_, "truncated: header promises " + std::to_string(samples) + " samples, " +
-                                std::to_string(rest) + " bytes follow");
+    throw FileError(path_, "truncated: header promises " + std::to_string(samples) + " samples, " +
+                               std::to_string(rest) + " bytes follow");
 }
 
 void Reader::end_plain() {
   skip_blanks();
-  if (end_ != EOF) throw file_error(path_, "too long: text follows the last sample");
+  if (end_ != EOF) throw FileError(path_, "too long: text follows the last sample");
 }
 
 void Reader::check_rest(std::uint64_t bytes) {
@@ -105,13 +104,13 @@ void Reader::check_rest(std::uint64_t bytes) {
     --rest;
   }
   if (rest != bytes)
-    throw file_error(path_, (rest < bytes ? "truncated" : "too long") + std::string(": header promises ") +
-                                std::to_string(bytes) + " bytes, " + std::to_string(rest) + " follow");
+    throw FileError(path_, (rest < bytes ? "truncated" : "too long") + std::string(": header promises ") +
+                               std::to_string(bytes) + " bytes, " + std::to_string(rest) + " follow");
 }
 
 void Reader::read(void* samples, std::size_t bytes) {
   if (!file_.stream->read(static_cast<char*>(samples), static_cast<std::streamsize>(bytes)))
-    throw file_error(path_, "cannot be read to its end");
+    throw FileError(path_, "cannot be read to its end");
 }
 
 }  // namespace edgewise::netpbm

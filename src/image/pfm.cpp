@@ -40,7 +40,7 @@ FloatMap read_pfm(const std::filesystem::path& path, InputFile file) {
   const std::string text = reader.word();
   const double scale = parse_number(text);
   if (!std::isfinite(scale) || scale == 0.0)
-    throw file_error(path, "malformed header: '" + text + "' is not a scale");
+    throw FileError(path, "malformed header: '" + text + "' is not a scale");
   const std::size_t channels = reader.kind() == 'f' ? 1 : 3;
   FloatMap map{size.width, size.height, static_cast<int>(channels),
                reader.samples<float>(size.pixels() * channels)};

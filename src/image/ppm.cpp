@@ -40,7 +40,7 @@ Samples read_ppm(const std::filesystem::path& path, InputFile file) {
   netpbm::Reader reader(path, std::move(file), "P2, P3, P5 or P6");
   const netpbm::Size size = reader.size();
   const std::uint64_t maximum = reader.integer("maximum");
-  if (maximum < 1 || maximum > 65535) throw file_error(path, "the maximum must be 1 to 65535");
+  if (maximum < 1 || maximum > 65535) throw FileError(path, "the maximum must be 1 to 65535");
   const bool plain = reader.is_plain(), grey = reader.kind() == '2' || reader.kind() == '5';
   Samples image{size.width, size.height, maximum > 255, grey, {}};
   const std::size_t channels = grey ? 1 : 3, width = image.deep ? 2 : 1;
@@ -56,8 +56,8 @@ Samples read_ppm(const std::filesystem::path& path, InputFile file) {
                                 : image.deep ? bytes[2 * i] * 256u + bytes[2 * i + 1]
                                              : bytes[i];
     if (value > maximum)
-      throw file_error(path, "has a sample of " + std::to_string(value) + ", more than its maximum of " +
-                                 std::to_string(maximum));
+      throw FileError(path, "has a sample of " + std::to_string(value) + ", more than its maximum of " +
+                                std::to_string(maximum));
     return static_cast<std::uint16_t>((value * full + maximum / 2) / maximum * (65535 / full));
   };
   image.pixels.reserve(size.pixels());

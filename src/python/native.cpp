@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "core/atomic_file.h"
 #include "core/parallel.h"
 #include "edgewise/camera.h"
 #include "edgewise/contract.h"
@@ -21,6 +20,7 @@
 #include "edgewise/scene.h"
 #include "edgewise/tri_file.h"
 #include "edgewise/visible.h"
+#include "files/atomic_file.h"
 #include "frontend/scene_edits.h"
 #include "frontend/submission.h"
 #include "python/drawn.h"

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/llc.h"
 #include "edgewise/screen_triangle.h"
 #include "raster/kernels.h"
+#include "raster/llc.h"
 #include "raster/tile_options.h"
 
 namespace edgewise {

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <span>
 
-#include "core/llc.h"
 #include "core/parallel.h"
 #include "raster/clear.h"
+#include "raster/llc.h"
 #include "raster/policy.h"
 
 namespace edgewise {

@@ -37,12 +37,12 @@ Header read_header(const std::filesystem::path& path, InputFile& file) {
   file.stream->read(reinterpret_cast<char*>(header.data()), sizeof header);
   convert_words(std::as_writable_bytes(std::span(header)), std::endian::little);
   if (file.stream->gcount() >= 4 && header[0] != kMagic)
-    throw file_error(path, "is not a triangle stream (it does not start with TRI1)");
+    throw FileError(path, "is not a triangle stream (it does not start with TRI1)");
   if (!*file.stream)
-    throw file_error(path, "truncated: the header has 16 bytes, the file " + std::to_string(file.size));
+    throw FileError(path, "truncated: the header has 16 bytes, the file " + std::to_string(file.size));
   if (!is_side(header[1]) || !is_side(header[2]))
-    throw file_error(path, "image size " + std::to_string(header[1]) + "x" + std::to_string(header[2]) +
-                               " is outside 1 to " + std::to_string(contract::kMaxImageSide));
+    throw FileError(path, "image size " + std::to_string(header[1]) + "x" + std::to_string(header[2]) +
+                              " is outside 1 to " + std::to_string(contract::kMaxImageSide));
   return header;
 }
 
@@ -58,20 +58,19 @@ TriangleStream read_tri(const std::filesystem::path& path, InputFile file) {
   const std::uint64_t promised = std::uint64_t{count} * sizeof(StreamTriangle);
   const std::uint64_t follow = file.size - sizeof(Header);
   if (follow != promised)
-    throw file_error(path, (follow < promised ? "truncated" : "too long") +
-                               std::string(": header promises ") + count_text(count, "triangle") + " (" +
-                               count_text(promised, "byte") + "), " + count_text(follow, "byte") +
-                               (follow == 1 ? " follows" : " follow"));
+    throw FileError(path, (follow < promised ? "truncated" : "too long") + std::string(": header promises ") +
+                              count_text(count, "triangle") + " (" + count_text(promised, "byte") + "), " +
+                              count_text(follow, "byte") + (follow == 1 ? " follows" : " follow"));
 
   if (count > kMaxTriangles)
-    throw file_error(path,
-                     "has " + count_text(count, "triangle") + ", more than " + std::to_string(kMaxTriangles));
+    throw FileError(path,
+                    "has " + count_text(count, "triangle") + ", more than " + std::to_string(kMaxTriangles));
 
   TriangleStream stream{static_cast<int>(width), static_cast<int>(height), {}};
   stream.triangles.resize(count);
   if (!file.stream->read(reinterpret_cast<char*>(stream.triangles.data()),
                          static_cast<std::streamsize>(promised)))
-    throw file_error(path, "cannot be read to its end");
+    throw FileError(path, "cannot be read to its end");
   convert_words(std::as_writable_bytes(std::span(stream.triangles)), std::endian::little);
   return stream;
 }

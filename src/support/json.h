@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/atomic_file.h"
+#include "files/atomic_file.h"
 #include "support/console.h"
 
 namespace edgewise::tools {

@@ -13,9 +13,9 @@
 #include <tuple>
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "core/input_file.h"
 #include "core/nearest_name.h"
+#include "files/atomic_file.h"
 #include "support/console.h"
 #include "support/options.h"
 #include "support/printable.h"

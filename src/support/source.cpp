@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/atomic_file.h"
 #include "core/input_file.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
+#include "files/atomic_file.h"
 #include "support/console.h"
 
 namespace edgewise::tools {
@@ -90,7 +90,7 @@ Source load_source(const std::string& name_or_path, const SceneRequest& request,
     try {
       fit(scene);
     } catch (const std::invalid_argument& error) {
-      throw file_error(path, error.what());
+      throw FileError(path, error.what());
     }
   }
   frame_camera(scene, static_cast<double>(request.width) / request.height);

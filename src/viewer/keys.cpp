@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/numbers.h"
-#include "lab/choice.h"
+#include "lab/stage_methods.h"
 
 namespace edgewise::viewer {
 
@@ -22,7 +22,7 @@ constexpr std::pair<std::string_view, Key> kNames[] = {
 Stroke parse_name(std::string_view name) {
   for (const auto& [known, key] : kNames)
     if (known == name) return key;
-  if (lab::Choice unused; put(name, unused)) return Named{std::string(name)};
+  if (lab::StageMethods unused; put(name, unused)) return Named{std::string(name)};
   if (const auto seconds = parsed<double>(name); seconds && *seconds >= 0 && *seconds <= kLongestWait)
     return *seconds;
   throw std::invalid_argument("--keys: <" + std::string(name) +

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "edgewise/contract.h"
+#include "files/pictures.h"
 #include "frontend/shade.h"
-#include "image/pictures.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/clipping/truth.h"
 #include "lab/coverage/score.h"
-#include "lab/measure.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
 #include "viewer/annotations.h"
@@ -100,7 +100,7 @@ Backend& Pipeline::backend(std::string_view name) {
   return *slot;
 }
 
-Picture Pipeline::draw(const lab::Choice& choice, const View& view) {
+Picture Pipeline::draw(const lab::StageMethods& choice, const View& view) {
   Picture picture;
   FrontendOptions options = view.frontend;
   options.payload = Payload::colour;
@@ -119,14 +119,14 @@ Picture Pipeline::draw(const lab::Choice& choice, const View& view) {
   return picture;
 }
 
-void Pipeline::draw_ours(const lab::Choice& choice, const View& view, Picture& picture) {
+void Pipeline::draw_ours(const lab::StageMethods& choice, const View& view, Picture& picture) {
   Backend& by = backend(choice.coverage->info.name);
   const std::uint32_t background = tools::background_of(Payload::colour);
   picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), {background}, view.execution); });
   picture.image = to_image(*frame_);
 }
 
-void Pipeline::draw_composed(const lab::Choice& choice, const View& view, Picture& picture) {
+void Pipeline::draw_composed(const lab::StageMethods& choice, const View& view, Picture& picture) {
   double stages_ms = 0;
   const Triangles triangles = triangles_of(choice, view, stages_ms);
   if (!choice.our_facing() || !choice.our_clipping()) {
@@ -159,14 +159,14 @@ void Pipeline::run_without_hidden_faces(const lab::FacingMethod& method, const V
   });
 }
 
-void Pipeline::outline(const lab::Choice& choice, const View& view, Image& image) {
+void Pipeline::outline(const lab::StageMethods& choice, const View& view, Image& image) {
   double unused_ms = 0;
   const Triangles triangles = triangles_of(choice, view, unused_ms);
   const VisibleIds visible = visible_ids_of(choice, view, triangles, unused_ms);
   add_outlines(triangles.snapped, visible, backend(wireframe().name), frame_->view(), view.execution, image);
 }
 
-std::vector<TriangleState> Pipeline::states(const lab::Choice& choice, const View& view) {
+std::vector<TriangleState> Pipeline::states(const lab::StageMethods& choice, const View& view) {
   if (!choice.our_clipping()) return {};
   FrontendOptions options = view.frontend;
   options.keep_states = true;
@@ -250,7 +250,8 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
   triangles.floats.resize(kept);
 }
 
-Pipeline::Triangles Pipeline::triangles_of(const lab::Choice& choice, const View& view, double& spent_ms) {
+Pipeline::Triangles Pipeline::triangles_of(const lab::StageMethods& choice, const View& view,
+                                           double& spent_ms) {
   if (choice.our_clipping() && choice.our_facing()) return from_front_end(view, view.frontend.cull);
   Triangles triangles;
   if (choice.our_clipping())
@@ -261,7 +262,7 @@ Pipeline::Triangles Pipeline::triangles_of(const lab::Choice& choice, const View
   return triangles;
 }
 
-Pipeline::VisibleIds Pipeline::visible_ids_of(const lab::Choice& choice, const View& view,
+Pipeline::VisibleIds Pipeline::visible_ids_of(const lab::StageMethods& choice, const View& view,
                                               const Triangles& triangles, double& spent_ms) {
   if (!choice.our_visibility()) return visible_ids_by(*choice.visibility, view, triangles, spent_ms);
   spent_ms = milliseconds([&] {
@@ -306,7 +307,7 @@ Pipeline::VisibleIds Pipeline::true_visible_ids(const View& view, const Triangle
   return visible;
 }
 
-Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth truth) {
+Judgement Pipeline::judge(const lab::StageMethods& choice, const View& view, Truth truth) {
   double unused_ms = 0;
   const Triangles triangles = triangles_of(choice, view, unused_ms);
   const VisibleIds drawn = visible_ids_of(choice, view, triangles, unused_ms);
@@ -316,7 +317,7 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
   const std::string_view by = backends()[is_first ? 1 : 0].name;
   VisibleIds expected = [&] {
     if (choice.our_clipping() && choice.our_facing()) return true_visible_ids(view, triangles, truth, by);
-    const lab::Choice exact = lab::our_choice(by);
+    const lab::StageMethods exact = lab::our_choice(by);
     if (choice.our_clipping()) return true_visible_ids(view, triangles_of(exact, view, unused_ms), truth, by);
     // Clipping methods work on slightly rounded world-space vertices, so the reference must clip the same
     // vertices.

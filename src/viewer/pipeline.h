@@ -13,9 +13,9 @@
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
 #include "edgewise/image.h"
-#include "lab/choice.h"
 #include "lab/error_marks.h"
 #include "lab/hidden_faces.h"
+#include "lab/stage_methods.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {
@@ -55,14 +55,14 @@ std::string errors_of(const Judgement& judgement);
 class Pipeline {
  public:
   // The choice must be drawable (lab::drawable_part).
-  Picture draw(const lab::Choice& choice, const View& view);
+  Picture draw(const lab::StageMethods& choice, const View& view);
   // Judges the picture of this choice and view; the choice must fill triangles.
-  Judgement judge(const lab::Choice& choice, const View& view, Truth truth);
+  Judgement judge(const lab::StageMethods& choice, const View& view, Truth truth);
   // Adds outlines to the picture of the last draw; same choice and view.
-  void outline(const lab::Choice& choice, const View& view, Image& image);
+  void outline(const lab::StageMethods& choice, const View& view, Image& image);
   // The state of each triangle of a scene; empty for the clipping methods of src/lab, which don't report
   // states.
-  std::vector<TriangleState> states(const lab::Choice& choice, const View& view);
+  std::vector<TriangleState> states(const lab::StageMethods& choice, const View& view);
   // The output of the last draw's front end.
   std::span<const ScreenTriangle> screen_triangles() const { return screen_; }
 
@@ -77,15 +77,15 @@ class Pipeline {
   // Per pixel, row by row: the visible triangle's index in the scene, or lab::kNoTriangle.
   using VisibleIds = std::vector<std::uint32_t>;
 
-  void draw_ours(const lab::Choice& choice, const View& view, Picture& picture);
+  void draw_ours(const lab::StageMethods& choice, const View& view, Picture& picture);
   // Runs the front end again after a facing method that drops back faces before projection, to get its times.
   void run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture);
-  void draw_composed(const lab::Choice& choice, const View& view, Picture& picture);
-  Triangles triangles_of(const lab::Choice& choice, const View& view, double& spent_ms);
+  void draw_composed(const lab::StageMethods& choice, const View& view, Picture& picture);
+  Triangles triangles_of(const lab::StageMethods& choice, const View& view, double& spent_ms);
   Triangles from_front_end(const View& view, Cull cull);
   Triangles from_clipping(const lab::ClippingMethod& method, const View& view, double& spent_ms);
   void cull(const lab::FacingMethod& method, const View& view, Triangles& triangles, double& spent_ms);
-  VisibleIds visible_ids_of(const lab::Choice& choice, const View& view, const Triangles& triangles,
+  VisibleIds visible_ids_of(const lab::StageMethods& choice, const View& view, const Triangles& triangles,
                             double& spent_ms);
   VisibleIds visible_ids_by(const lab::VisibilityMethod& method, const View& view, const Triangles& triangles,
                             double& spent_ms);

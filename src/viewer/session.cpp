@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "edgewise/tri_file.h"
+#include "files/atomic_file.h"
 #include "lab/to_stream.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
@@ -241,7 +241,7 @@ void Session::act(Command command) {
 
 void Session::switch_by(Command command, int step) {
   Side& side = sides_[state_.active];
-  lab::Choice& choice = side.choice;
+  lab::StageMethods& choice = side.choice;
   switch (command) {
     case Command::coverage:
       step_method(lab::drawing_methods(), choice.coverage, step);
@@ -442,7 +442,7 @@ Image Session::draw_side(std::size_t i, tools::Size size, double& work_ms) {
   return std::move(picture.image);
 }
 
-void Session::judge_if_due(std::size_t i, const lab::Choice& choice, const View& view, double work_ms) {
+void Session::judge_if_due(std::size_t i, const lab::StageMethods& choice, const View& view, double work_ms) {
   Side& side = sides_[i];
   const bool fresh = side.judgement && side.judged == state_.version;
   if (state_.errors == Errors::off || !choice.fills() || fresh) return;

@@ -30,7 +30,7 @@ struct Start {
   // Loads the scene for a picture of this size. Called again after a change of size for built-in streams,
   // which fill the picture.
   std::function<tools::Shot(tools::Size)> load;
-  lab::Choice choice = lab::our_choice("tiled");  // for the first side
+  lab::StageMethods choice = lab::our_choice("tiled");  // for the first side
   Execution execution;
   std::optional<glm::vec3> axis;  // rotation axis; none: the first object's
   std::filesystem::path folder;   // for files saved with `p`
@@ -45,7 +45,7 @@ enum class Arrangement { one, side_by_side, difference };
 
 // One of the two pictures that can be compared.
 struct Side {
-  lab::Choice choice;
+  lab::StageMethods choice;
   const lab::CoverageMethod* filled = nullptr;  // the filling method to return to from edges only
   bool cull_front = false, cull_back = false;
   std::string because;                    // which part of the choice cannot be drawn, and why
@@ -139,7 +139,7 @@ class Session {
   void draw_picture();
   View view_of(std::size_t side, tools::Size size) const;
   Image draw_side(std::size_t side, tools::Size size, double& work_ms);
-  void judge_if_due(std::size_t side, const lab::Choice& choice, const View& view, double work_ms);
+  void judge_if_due(std::size_t side, const lab::StageMethods& choice, const View& view, double work_ms);
   void add_labels();
   void reset_results();
   void show_next_error();

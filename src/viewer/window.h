@@ -18,7 +18,7 @@ struct WindowOptions {
 // opened.
 using ShowWindow = void (*)(Session& session, const WindowOptions& options);
 
-// Defined in sdl_window.cpp, which is built only into the program, and only if SDL and Dear ImGui were found.
+// Defined in src/program, and only if SDL and Dear ImGui were found.
 void show_sdl_window(Session& session, const WindowOptions& options);
 
 // In half-block characters, for example over ssh. Returns when the session is done. Throws std::runtime_error

@@ -17,7 +17,7 @@
 #include "edgewise/contract.h"
 #include "frontend/view.h"
 #include "lab/coverage/coverage.h"
-#include "lab/peers/gl_context.h"
+#include "lab/peers/mesa/gl_context.h"
 #include "lab/portable/portable.h"
 #include "message_of.h"
 #include "support.h"

@@ -1,5 +1,5 @@
 // Facts (errors, needs, pixels that are not portable) are the same on any number of threads, and are those of
-// results/facts/. tests/core/emulated_cpu_test.cpp shows it for other SIMD targets.
+// results/facts/. tests/process/emulated_cpu_test.cpp shows it for other SIMD targets.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -15,9 +15,9 @@
 
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
-#include "lab/hard_triangles.h"
-#include "lab/measure.h"
-#include "lab/random_cases.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/cases/hard_triangles.h"
+#include "lab/cases/random_cases.h"
 #include "message_of.h"
 #include "run_program.h"
 #include "support.h"

@@ -1,3 +1,4 @@
+#ifdef EDGEWISE_THREADS
 #include "core/parallel.h"
 
 #include <gtest/gtest.h>
@@ -41,3 +42,4 @@ TEST(ParallelFor, MayBeNested) {
 
 }  // namespace
 }  // namespace edgewise
+#endif

@@ -14,8 +14,8 @@
 #include "edgewise/draw.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
-#include "lab/measure.h"
-#include "lab/random_cases.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/cases/random_cases.h"
 #include "message_of.h"
 #include "support.h"
 

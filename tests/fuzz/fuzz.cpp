@@ -14,8 +14,8 @@
 #include "edgewise/contract.h"
 #include "edgewise/draw.h"
 #include "frontend/mesh_clusters.h"
-#include "lab/measure.h"
-#include "lab/oracle.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/truth/oracle.h"
 
 namespace edgewise::fuzz {
 

@@ -4,7 +4,7 @@
 
 #include "edgewise/obj_file.h"
 #include "fuzz.h"
-#include "lab/random_cases.h"
+#include "lab/cases/random_cases.h"
 
 using namespace edgewise;
 

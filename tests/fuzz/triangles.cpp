@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fuzz.h"
-#include "lab/hard_triangles.h"
+#include "lab/cases/hard_triangles.h"
 
 using namespace edgewise;
 

@@ -8,7 +8,7 @@
 
 #include "conformance/streams.h"
 #include "edgewise/builtin.h"
-#include "lab/random_cases.h"
+#include "lab/cases/random_cases.h"
 
 namespace edgewise::hashes {
 

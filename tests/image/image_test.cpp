@@ -10,12 +10,12 @@
 #include <sstream>
 #include <tuple>
 
-#include "core/atomic_file.h"
 #include "core/little_endian.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/scene.h"
+#include "files/atomic_file.h"
 #include "float_modes.h"
 #include "image/format.h"
 #include "message_of.h"

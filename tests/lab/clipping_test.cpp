@@ -8,11 +8,11 @@
 #include <cmath>
 #include <map>
 
+#include "lab/cases/frame_comparison.h"
 #include "lab/coverage/score.h"
 #include "lab/lab_support.h"
-#include "lab/measure.h"
 #include "lab/portable/portable.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 #include "lab/view_space.h"
 #include "message_of.h"
 

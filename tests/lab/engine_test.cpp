@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "lab/cases/frame_comparison.h"
 #include "lab/coverage_support.h"
 #include "lab/engine/engine.h"
-#include "lab/measure.h"
 
 namespace edgewise::lab {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "edgewise/builtin.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 #include "lab/view_space.h"
 #include "message_of.h"
 #include "support.h"

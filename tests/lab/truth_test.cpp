@@ -1,5 +1,5 @@
 // Compares the two truths with rational arithmetic, with each other and with the contract's depth.
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "lab/lab_support.h"
-#include "lab/oracle.h"
-#include "lab/truth.h"
+#include "lab/truth/oracle.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 namespace {
@@ -232,8 +232,8 @@ TEST(Visibility, OursIsNeverWorseThanAPlainDepthBuffer) {
       expect_never_worse("two planes", two_planes(distance, relative * distance, 0.1, 1000));
 }
 
-// The two truths of lab/truth.h use depths rounded as in rule 6 and to float. This family's truths use the
-// unrounded distances. They may differ only where rounding swaps two depths.
+// The two truths of lab/truth/truth.h use depths rounded as in rule 6 and to float. This family's truths use
+// the unrounded distances. They may differ only where rounding swaps two depths.
 TEST(Visibility, BothTruthsMatchTheCoverageFamilysUpToDepthRounding) {
   for (const auto name : {"cube", "torus-knot"}) {
     const auto scene = seen_by_the_front_end(name, {160, 120});

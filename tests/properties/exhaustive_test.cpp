@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "frontend/fixed.h"
-#include "lab/oracle.h"
 #include "lab/to_stream.h"
+#include "lab/truth/oracle.h"
 #include "properties/pictures.h"
 #include "properties/streams.h"
 #include "support.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "frontend/fixed.h"
-#include "lab/oracle.h"
+#include "lab/truth/oracle.h"
 #include "support.h"
 
 namespace edgewise::testing {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "lab/measure.h"
-#include "lab/oracle.h"
-#include "lab/truth.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/truth/oracle.h"
+#include "lab/truth/truth.h"
 #include "properties/pictures.h"
 #include "properties/streams.h"
 #include "support.h"

@@ -24,8 +24,8 @@ rc::Gen<Value> generator(Make make, Simpler simpler) {
   };
 }
 
-// Families of lab/hard_triangles.h, up to three in one stream; on the 1/256 px grid, within the guard band.
-// Up to 42 triangles and 130 px a side.
+// Families of lab/cases/hard_triangles.h, up to three in one stream; on the 1/256 px grid, within the guard
+// band. Up to 42 triangles and 130 px a side.
 rc::Gen<TriangleStream> grid_streams();
 
 // The same, with positions off the grid, many of them half-way between two points of it.

@@ -19,8 +19,8 @@
 #include "edgewise/visible.h"
 #include "frontend/clip.h"
 #include "frontend/transform.h"
-#include "lab/random_cases.h"
-#include "lab/truth.h"
+#include "lab/cases/random_cases.h"
+#include "lab/truth/truth.h"
 #include "message_of.h"
 #include "support.h"
 

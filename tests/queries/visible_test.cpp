@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "lab/random_cases.h"
+#include "lab/cases/random_cases.h"
 #include "message_of.h"
 #include "support.h"
 

@@ -7,7 +7,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/draw.h"
 #include "every_backend.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "message_of.h"
 
 namespace edgewise {

@@ -15,7 +15,7 @@
 #include "core/triangle_source.h"
 #include "edgewise/contract.h"
 #include "edgewise/simd_target.h"
-#include "lab/exact_spans.h"
+#include "lab/cases/exact_spans.h"
 #include "raster/binning/bins.h"
 #include "support.h"
 

@@ -7,8 +7,8 @@
 
 #include "edgewise/builtin.h"
 #include "edgewise/draw.h"
-#include "lab/hard_triangles.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/cases/hard_triangles.h"
 #include "message_of.h"
 #include "raster/fill_counts.h"
 #include "support.h"

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "every_backend.h"
-#include "lab/guarded_frame.h"
+#include "lab/cases/guarded_frame.h"
 #include "message_of.h"
 
 namespace edgewise {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/llc.h"
-#include "lab/measure.h"
+#include "raster/llc.h"
+#include "lab/cases/frame_comparison.h"
 #include "raster/kernels.h"
 #include "raster/policy.h"
 #include "raster/tiles.h"

@@ -137,7 +137,7 @@ TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCullsByWinding) {
 TEST(P5jsClipping, ClipsMovesRotatesAndReturnsToTheStart) {
   Shown demo("p5js-clipping");
   demo.step();
-  const lab::Choice& choice = demo.side(0).choice;
+  const lab::StageMethods& choice = demo.side(0).choice;
   EXPECT_EQ(describe(choice), "screen_edges + painter_mean");
   EXPECT_GT(demo.side(0).stats.clipped_near, 0u);
   EXPECT_LT(demo.side(0).judgement->wrong, 100u);

@@ -1,5 +1,6 @@
 // The panel by Dear ImGui: what it shows, that mouse and keys reach it, and that it never covers the picture.
-#include "viewer/panel.h"
+#ifdef EDGEWISE_IMGUI
+#include "viewer/panel/panel.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 #include <set>
 
 #include "viewer/demos.h"
-#include "viewer/imgui_paint.h"
+#include "viewer/panel/imgui_paint.h"
 #include "viewer/viewer_support.h"
 
 namespace edgewise::viewer {
@@ -121,7 +122,7 @@ TEST(Panel, ShowsTheMethodsAndItsDropDownsFollowTheKeys) {
                                   std::pair('n', lab::methods_of(lab::Family::facing))})
     for (std::size_t i = 0; i < 3; ++i) {
       shown.type(std::string(1, key));
-      const lab::Choice& c = shown.session().side(0).choice;
+      const lab::StageMethods& c = shown.session().side(0).choice;
       const std::string_view now = key == 'b'   ? c.coverage->info.name
                                    : key == 'x' ? c.clipping->info.name
                                    : key == 'z' ? c.visibility->info.name
@@ -329,3 +330,4 @@ TEST(ImguiPaint, FillsRectanglesExactly) {
 
 }  // namespace
 }  // namespace edgewise::viewer
+#endif

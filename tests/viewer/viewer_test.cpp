@@ -183,7 +183,7 @@ TEST(Viewer, CombinesEveryMethodOfEveryStage) {
       const Screen& screen = type(session, std::string(1, key));
       EXPECT_EQ(screen.picture.width, kTestSize.width);
       ASSERT_TRUE(session.side(0).judgement);
-      const lab::Choice& choice = session.side(0).choice;
+      const lab::StageMethods& choice = session.side(0).choice;
       // The whole scene is in view, and its depths differ clearly.
       const bool sorts = choice.visibility->stored01 == nullptr;
       if (!sorts && choice.facing->info.name != "normal_z" &&

@@ -92,7 +92,7 @@ struct CubeResult {
   std::vector<CubeMethodResult> methods;
 };
 
-// See lab::Changes.
+// See lab::PixelChanges.
 struct MotionResult {
   std::string name;
   int frames, width, height;

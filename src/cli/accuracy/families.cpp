@@ -3,7 +3,7 @@
 
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
 
 namespace edgewise::tools {
 

@@ -5,8 +5,8 @@
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
-#include "lab/coverage/changes.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/coverage/pixel_changes.h"
 
 namespace edgewise::tools {
 
@@ -119,8 +119,8 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
   const int frames = plan.quick ? kQuickMotionFrames : kMotionFrames;
   std::vector<MotionResult> results;
   for (const std::string_view name : kMovingScenes) {
-    lab::Changes truth;
-    std::vector<lab::Changes> changes(judged.size());
+    lab::PixelChanges truth;
+    std::vector<lab::PixelChanges> changes(judged.size());
     std::vector<std::unique_ptr<lab::Canvas>> canvases;
     for (std::size_t i = 0; i < judged.size(); ++i)
       canvases.push_back(std::make_unique<lab::Canvas>(kSize.width, kSize.height));

@@ -11,16 +11,16 @@
 #include <utility>
 
 #include "cli/verify/verify.h"
-#include "core/atomic_file.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "edgewise/draw.h"
 #include "edgewise/tri_file.h"
+#include "files/atomic_file.h"
 #include "frontend/mesh_clusters.h"
-#include "lab/measure.h"
-#include "lab/oracle.h"
-#include "lab/random_cases.h"
+#include "lab/cases/frame_comparison.h"
+#include "lab/cases/random_cases.h"
 #include "lab/to_stream.h"
+#include "lab/truth/oracle.h"
 #include "support/printable.h"
 #include "support/process.h"
 

@@ -7,12 +7,12 @@
 #include <memory>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "edgewise/draw.h"
 #include "edgewise/tri_file.h"
-#include "image/pictures.h"
-#include "lab/oracle.h"
+#include "files/atomic_file.h"
+#include "files/pictures.h"
 #include "lab/to_stream.h"
+#include "lab/truth/oracle.h"
 
 namespace edgewise::tools {
 

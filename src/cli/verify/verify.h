@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "edgewise/frontend.h"
-#include "lab/measure.h"
+#include "lab/cases/frame_comparison.h"
 #include "support/options.h"
 
 namespace edgewise::tools {

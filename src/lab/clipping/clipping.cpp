@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "lab/clipping/pipeline.h"
 #include "lab/clipping/truth.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

@@ -11,7 +11,7 @@
 #include "frontend/fixed.h"
 #include "frontend/transform.h"
 #include "lab/clipping/clipping.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

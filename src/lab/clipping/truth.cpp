@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "core/trigonometry.h"
 #include "frontend/view.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "lab/ball.h"
 #include "lab/clipping/clipping.h"
+#include "lab/truth/ball_arithmetic.h"
 
 namespace edgewise::lab {
 

@@ -15,7 +15,7 @@
 #include "edgewise/backend.h"
 #include "edgewise/framebuffer.h"
 #include "lab/method.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 #include "raster/tiles.h"
 
 namespace edgewise::lab {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "edgewise/framebuffer.h"
+#include "lab/cases/frame_comparison.h"
 #include "lab/coverage/coverage.h"
-#include "lab/measure.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

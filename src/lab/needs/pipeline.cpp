@@ -10,9 +10,9 @@
 #include "edgewise/contract.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
-#include "lab/choice.h"
 #include "lab/needs/ranges.h"
 #include "lab/source_triangles.h"
+#include "lab/stage_methods.h"
 #include "lab/view_space.h"
 #include "lab/visibility/depth_buffer.h"
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/cases/frame_comparison.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/cracks.h"
-#include "lab/measure.h"
 #include "lab/peers/peer.h"
 #include "scene/streams.h"
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

@@ -12,7 +12,7 @@
 #include "frontend/transform.h"
 #include "frontend/view.h"
 #include "lab/source_triangles.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

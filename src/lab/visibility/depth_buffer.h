@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "edgewise/contract.h"
-#include "lab/exact_spans.h"
+#include "lab/cases/exact_spans.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "edgewise/contract.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

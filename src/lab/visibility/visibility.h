@@ -4,8 +4,8 @@
 // differ in visibility only. There are two truths, on the snapped positions and on those before snapping.
 // Both use rationals: 1 / view_z is linear on the screen, and the vertices' coordinates and distances are
 // exact. The nearest plane is visible; at a tie the earlier triangle. Unlike exact_visible_triangles()
-// (lab/truth.h) they use unrounded distances instead of the front end's depths, since the methods differ in
-// how they round depth.
+// (lab/truth/truth.h) they use unrounded distances instead of the front end's depths, since the methods
+// differ in how they round depth.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
 #include "lab/method.h"
-#include "lab/truth.h"
+#include "lab/truth/truth.h"
 
 namespace edgewise::lab {
 

@@ -1,0 +1,440 @@
+// The benchmark draws every row once and compares it bit for bit, then times all rows in interleaved
+// repetitions, so that a burst of other load on the machine does not hit one row alone.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <linux/perf_event.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "bench/program/flags.h"
+#include "bench/program/reporter.h"
+#include "bench/workloads/events.h"
+#include "bench/workloads/memory.h"
+#include "bench/workloads/random_reads.h"
+#include "bench/workloads/stage.h"
+#include "core/parallel.h"
+#include "files/atomic_file.h"
+#include "support/console.h"
+#include "support/json.h"
+#include "support/machine.h"
+#include "support/options.h"
+#include "support/output_path.h"
+#include "support/printable.h"
+#include "support/process.h"
+#include "support/progress.h"
+
+namespace edgewise::bench {
+
+constexpr const char* kProgram = "edgewise_bench";
+
+namespace {
+
+// The least duration of a repetition. Noise comes in bursts, so many short repetitions measure better than a
+// few long ones.
+constexpr double kRepetition_s = 0.012;
+
+// The rounds that time a row. kManyRounds settle a true 1.2x in 95 % of runs, as scripts/README.md shows. The
+// number is fixed: stopping as soon as a pair is settled would find differences that do not exist.
+constexpr int kRounds = 9, kManyRounds = 36;
+// A quick run begins no round beyond kRounds after this time.
+constexpr double kQuickRounds_s = 180.0;
+
+// A backend's whole frames: the first one's memory and duration, and how long the slowest take.
+bool keeps_frames(const Row& row) {
+  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
+         row.once_s < kTooSlowToDrawTwice_s;
+}
+
+// Passes Google Benchmark our defaults first, so that the user's flags override them.
+void initialize_benchmark(const Flags& flags) {
+  // Static, since Google Benchmark keeps a pointer to the program's name.
+  static std::vector<std::string> words{"edgewise_bench", "--benchmark_enable_random_interleaving=true",
+                                        "--benchmark_counters_tabular=true"};
+  words.insert(words.end(), flags.benchmark.begin(), flags.benchmark.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  int argc = static_cast<int>(argv.size());
+  benchmark::Initialize(&argc, argv.data());
+  if (argc > 1) throw std::invalid_argument(tools::unknown_option(argv[1], flags.known, kProgram));
+}
+
+class SilentReporter final : public benchmark::BenchmarkReporter {
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>&) override {}
+};
+
+// The rows that match --benchmark_filter, in the suite's order. Google Benchmark applies the filter to empty
+// benchmarks of the same names. None if it reported that no row matches; an empty list after
+// --benchmark_list_tests.
+std::optional<std::vector<Row>> select(std::vector<Row> suite) {
+  std::vector<char> selected(suite.size(), 0);
+  for (std::size_t i = 0; i < suite.size(); ++i)
+    benchmark::RegisterBenchmark(suite[i].name.c_str(), [&selected, i](benchmark::State& state) {
+      selected[i] = 1;
+      state.SkipWithError("only selected");
+    });
+  SilentReporter silent;
+  if (benchmark::RunSpecifiedBenchmarks(&silent) == 0) return std::nullopt;
+  benchmark::ClearRegisteredBenchmarks();
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < suite.size(); ++i)
+    if (selected[i]) rows.push_back(std::move(suite[i]));
+  return rows;
+}
+
+// A peer that was built cannot start on a machine without its driver.
+void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
+  const bool some = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.peer != nullptr; });
+  if (!some && !need_peers) return;
+  const lab::StartedPeers started = lab::start_peers(need_peers ? lab::peers() : lab::benchmark_peers());
+  if (need_peers) started.require_one();
+  for (const auto& [peer, version] : started.peers)
+    benchmark::AddCustomContext(std::string(peer->name), version);
+  for (const std::string& reason : started.left_out) std::cerr << "Left out: " << reason << '\n';
+  for (Row& row : rows)
+    for (const auto& [peer, version] : started.peers)
+      if (row.peer != nullptr && row.peer->name == peer->name) row.peer_version = version;
+  std::erase_if(rows, [](const Row& row) { return row.peer != nullptr && row.peer_version.empty(); });
+}
+
+// Whether the previous row is the same backend's draw without the front end, and was already too slow.
+bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
+  if (i == 0 || rows[i].timed != Timed::frame) return false;
+  const Row &row = rows[i], &alone = rows[i - 1];
+  return alone.timed == Timed::raster && alone.workload == row.workload && alone.backend == row.backend &&
+         alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowToDrawTwice_s;
+}
+
+// Goes workload by workload, so that only one reference picture is in memory at a time. In the whole suite,
+// frames that leave_out_slow_frames() will drop are not drawn.
+void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
+  tools::Progress progress;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
+    if (!rows[i].workload) {
+      stage.compare(rows[i]);
+      continue;
+    }
+    Workload& workload = *rows[i].workload;
+    const auto needs_scene = [&](const Row& row) {
+      return row.workload.get() == &workload && row.timed != Timed::raster;
+    };
+    workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
+    if (whole_suite && is_too_slow_alone(rows, i))
+      rows[i].once_s = rows[i - 1].once_s;
+    else
+      stage.compare(rows[i]);
+    if (keeps_frames(rows[i])) {
+      rows[i].keeps_frames = true;
+      rows[i].first_frame = draw_first_frame(rows[i]);
+    }
+    if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
+  }
+}
+
+// If the draw takes seconds, the front end's milliseconds are lost in the noise.
+void leave_out_slow_frames(std::vector<Row>& rows) {
+  std::erase_if(rows, [&](const Row& row) {
+    const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowToDrawTwice_s;
+    if (slow) std::cerr << "Left out as too slow: " << row.name << '\n';
+    return slow;
+  });
+}
+
+// Keeps all threads of the row awake, so that only the caches differ from frames back to back.
+void pause_before(const Row& row) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(row.pause_s);
+  parallel_for(row.execution.threads, row.execution.threads, [end](int) {
+    while (std::chrono::steady_clock::now() < end) {
+    }
+  });
+}
+
+// Rows that are not repeated: wrong ones, and those that the comparison has already timed.
+bool is_known(const Row& row) {
+  return !row.error.empty() || (row.once_s > kTooSlowToRepeat_s && !is_cell(row));
+}
+
+int rounds_of(const Row& row, const Flags& flags) {
+  if (is_known(row)) return 1;
+  return flags.repetitions.value_or(row.once_s < row.many_rounds_up_to_s ? kManyRounds : kRounds);
+}
+
+// With fewer, the 99th percentile would be the slowest of all.
+constexpr std::size_t kFramesForP99 = 100;
+
+// The smallest value that at least `share` of all values do not exceed.
+double percentile(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+struct FrameEvent {
+  std::string name;
+  EventCounter counter;
+};
+
+// Opened by the thread that draws.
+std::span<const FrameEvent> frame_events() {
+  static const FrameEvent kEvents[] = {{"instructions", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS}},
+                                       {"cache_misses", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_CACHE_MISSES}}};
+  return kEvents;
+}
+
+// Other threads' events are not counted.
+bool counts_events(const Row& row) {
+  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 1;
+}
+
+void add_events(Row& row, double sign) {
+  for (const auto& [name, counter] : frame_events()) row.events[name] += sign * counter.count();
+}
+
+void time_row(benchmark::State& state, Row& row, Stage& stage) {
+  if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
+  if (is_known(row)) {
+    for (auto _ : state) state.SetIterationTime(row.once_s);
+  } else {
+    // The caches hold another row's data. A long draw needs no warm-up.
+    if (stage.renew_memory(row) || row.once_s < kRepetition_s) stage.work(row);
+    if (counts_events(row)) add_events(row, -1.0);
+    for (auto _ : state) {
+      if (row.pause_s > 0.0) {
+        state.PauseTiming();
+        pause_before(row);
+        state.ResumeTiming();
+      }
+      const double frame_s = stage.timed_work_s(row);
+      if (row.device_clock) state.SetIterationTime(frame_s);
+      if (row.keeps_frames) row.frames_s.push_back(frame_s);
+    }
+    if (counts_events(row)) {
+      add_events(row, 1.0);
+      row.counted_frames += static_cast<double>(state.iterations());
+    }
+  }
+  auto& counters = state.counters;
+  if (row.peer != nullptr) state.SetLabel(row.peer_version);
+  if (row.method) {
+    const MethodScene& scene = *row.method->scene;
+    counters["width"] = scene.size().width;
+    counters["height"] = scene.size().height;
+    counters["triangles"] = static_cast<double>(scene.triangles());
+  }
+  if (!row.workload) return;
+  const Workload& workload = *row.workload;
+  counters["width"] = workload.width();
+  counters["height"] = workload.height();
+  counters["triangles"] =
+      static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
+  if (row.first_frame) {
+    counters["first_ms"] = row.first_frame->s * 1e3;
+    if (row.first_frame->peak_bytes) counters["peak_bytes"] = *row.first_frame->peak_bytes;
+  }
+  if (row.frames_s.size() >= kFramesForP99) counters["p99_ms"] = percentile(row.frames_s, 0.99) * 1e3;
+  for (const auto& [name, events] : row.events)
+    if (!std::isnan(events)) counters[name] = events / row.counted_frames;
+  if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
+    counters["wrong_px"] = static_cast<double>(*wrong_px);
+  if (row.timed == Timed::frontend) return;
+  const auto covered_px = static_cast<double>(workload.covered_px());
+  counters["covered_px"] = covered_px;
+  counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
+  if (row.peer != nullptr) counters["depth_ties"] = static_cast<double>(row.depth_ties);
+}
+
+void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, int round,
+                   const std::function<void(const Row&)>& begin) {
+  for (Row& row : rows) {
+    const bool known = is_known(row);
+    if (round >= rounds_of(row, flags)) continue;
+    auto* registered =
+        benchmark::RegisterBenchmark(row.name.c_str(), [&row, &stage, begin](benchmark::State& state) {
+          begin(row);
+          time_row(state, row, stage);
+        });
+    registered->Unit(benchmark::kMillisecond);
+    if (known || row.device_clock)
+      registered->UseManualTime();
+    else
+      registered->UseRealTime();
+    if (flags.own_iterations || known)
+      registered->Iterations(
+          known ? 1 : static_cast<std::int64_t>(std::ceil(kRepetition_s / std::max(row.once_s, 1e-6))));
+  }
+}
+
+using RandomReadRow = std::pair<ReadRow, std::shared_ptr<RandomReads>>;
+
+// Registered whatever the filter: they show how fast the machine's caches were while the rows were timed.
+void register_random_reads(std::span<const RandomReadRow> rows) {
+  constexpr std::size_t kReads = 10'000;
+  constexpr int kIterations = 5;
+  for (const auto& [row, reads] : rows)
+    benchmark::RegisterBenchmark(
+        row.name.data(),
+        [reads = reads, row = row](benchmark::State& state) {
+          if (row.fits_cache) benchmark::DoNotOptimize(reads->advance(reads->lines()));  // refills the cache
+          for (auto _ : state) benchmark::DoNotOptimize(reads->advance(kReads));
+          state.counters["reads"] = kReads;
+          state.counters["bytes"] = static_cast<double>(row.bytes);
+        })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Iterations(kIterations);
+}
+
+// In each round rows are timed once, in random order: repetition i of one row and of another form a pair.
+void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter& reporter) {
+  tools::Progress progress;
+  std::vector<RandomReadRow> reads;
+  for (const ReadRow& row : random_read_rows())
+    reads.emplace_back(row, std::make_shared<RandomReads>(row.bytes));
+  int most_rounds = 1, made = 0, all = 0;
+  for (const Row& row : rows) {
+    most_rounds = std::max(most_rounds, rounds_of(row, flags));
+    all += rounds_of(row, flags);
+  }
+  const auto begin = [&](const Row& row) {
+    progress.show(std::min(1.0, static_cast<double>(made++) / all), "timing " + row.name);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    if (flags.suite.quick && !flags.repetitions && round >= kRounds && spent.count() > kQuickRounds_s) break;
+    benchmark::ClearRegisteredBenchmarks();
+    register_rows(rows, stage, flags, round, begin);
+    register_random_reads(reads);
+    benchmark::RunSpecifiedBenchmarks(&reporter, ".");
+  }
+}
+
+// The file's name and size, by which people recognize it.
+std::string describe_file(const std::string& path) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  const std::string name = tools::printable(std::filesystem::path(path).filename().string());
+  return error ? name : fmt::format("{}, {} kB", name, bytes / 1000);
+}
+
+void add_context(const Flags& flags, std::span<const Row> rows, std::span<const std::string> inputs) {
+  std::vector<std::string_view> names, peers;  // peers: with whole frames
+  for (const BackendInfo& backend : backends()) names.push_back(backend.name);
+  for (const Row& row : rows)
+    if (row.peer != nullptr && row.workload &&
+        std::find(peers.begin(), peers.end(), row.peer->name) == peers.end())
+      peers.push_back(row.peer->name);
+  const auto machine = tools::machine_description();
+  benchmark::AddCustomContext("machine", tools::machine_name());
+  for (const char* key : {"build_type", "commit"})
+    if (machine.contains(key) && machine[key].is_string())
+      benchmark::AddCustomContext(key, machine[key].get<std::string>());
+  benchmark::AddCustomContext("simd_target", std::string(name_of(resolve(SimdTarget::best))));
+  benchmark::AddCustomContext("suite", flags.suite.quick            ? "quick"
+                                       : flags.suite.scenes.empty() ? "full"
+                                                                    : "scenes");
+  benchmark::AddCustomContext("backends", fmt::format("{}", fmt::join(names, " ")));
+  benchmark::AddCustomContext("peers", fmt::format("{}", fmt::join(peers, " ")));
+  benchmark::AddCustomContext("rounds", std::to_string(flags.repetitions.value_or(kRounds)));
+  for (const std::string& scene : inputs)
+    if (tools::is_file_path(scene))
+      benchmark::AddCustomContext("file " + name_in_rows(scene), describe_file(tools::input_path(scene)));
+  const std::string& error = frame_events().front().counter.error();
+  benchmark::AddCustomContext("perf_event",
+                              error.empty() ? "available" : fmt::format("not available ({})", error));
+}
+
+// The cost model's parts, one line per row.
+std::string model_json(std::span<const Row> rows) {
+  constexpr double kMs = 1e3;
+  std::string lines;
+  for (const Row& row : rows) {
+    if (!row.cost || !row.error.empty()) continue;
+    const auto& [blocks, read_s, blocks_s, write_s, tiles_s] = *row.cost;
+    const nlohmann::ordered_json parts{
+        {"name", row.name},         {"covered_blocks", blocks.covered}, {"won_blocks", blocks.won},
+        {"read_ms", read_s * kMs},  {"blocks_ms", blocks_s * kMs},      {"write_ms", write_s * kMs},
+        {"tiles_ms", tiles_s * kMs}};
+    lines += (lines.empty() ? "\n" : ",\n") + tools::json_text(parts);
+  }
+  return "{\n\"costs\": [" + lines + "\n]\n}\n";
+}
+
+int run(int argc, char** argv) {
+  const auto parsed = parse_flags(argc, argv);
+  if (!parsed) return 0;
+  const Flags& flags = *parsed;
+  initialize_benchmark(flags);
+  std::vector<tools::Output> files;
+  if (!flags.out.empty()) files.push_back({"--benchmark_out", flags.out});
+  if (!flags.model_out.empty()) files.push_back({"--model_out", flags.model_out});
+  std::vector<std::string> inputs = flags.suite.scenes;
+  inputs.insert(inputs.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
+  std::vector<std::string> read = inputs;
+  if (!flags.suite.needs.empty()) read.push_back(flags.suite.needs);
+  tools::check_files(files, read);
+  std::optional<AtomicFile> out;
+  if (!flags.out.empty()) out.emplace(flags.out);
+  std::optional<AtomicFile> model_out;
+  if (!flags.model_out.empty()) model_out.emplace(flags.model_out);
+  auto selected = select(make_suite(flags.suite));
+  if (!selected) return 2;
+  if (selected->empty()) return 0;
+  std::vector<Row>& rows = *selected;
+
+  leave_out_missing_peers(rows, flags.suite.all_peers);
+  if (rows.empty()) return 2;
+  Stage stage(!flags.model_out.empty());
+  compare_all(rows, stage, flags.suite.scenes.empty());
+  if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
+  add_context(flags, rows, inputs);
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.push_back(row.name);
+  for (const auto& row : random_read_rows()) names.emplace_back(row.name);
+  Reporter reporter(names);
+  time_all(rows, stage, flags, reporter);
+  reporter.finish();
+  if (out) {
+    out->stream() << reporter.json();
+    out->commit();
+  }
+  if (model_out) {
+    model_out->stream() << model_json(rows);
+    model_out->commit();
+  }
+  return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
+}
+
+int failed(std::string_view why) {
+  tools::print_error(why, kProgram);
+  return 2;
+}
+
+int guarded(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    return failed(tools::reason_of(error));
+  }
+}
+
+}  // namespace
+
+}  // namespace edgewise::bench
+
+int main(int argc, char** argv) {
+  edgewise::allow_more_threads_than_cores();
+  edgewise::tools::prepare_process(edgewise::bench::kProgram);
+  const int status = edgewise::bench::guarded(argc, argv);
+  if (edgewise::tools::stdout_is_whole() || status == 2) return status;
+  return edgewise::bench::failed("cannot write to standard output");
+}

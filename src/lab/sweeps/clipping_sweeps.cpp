@@ -1,0 +1,77 @@
+// Clipping sweeps: the distance of the near plane, the distance of a vertex from the camera's plane, and that
+// of camera and scene from the origin.
+
+#include "core/trigonometry.h"
+#include "lab/clipping/clipping.h"
+#include "lab/sweeps/sweeps.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+constexpr Size kSize{128, 96};
+constexpr YAxis kWrongPixels{"wrong pixels per 10^6 covered ones", true, 1e6};
+
+Measured measure_scene(const ClippingScene& scene) {
+  const auto methods = clipping_methods();
+  const ClippingTruth truth = clipping_truth(scene);
+  Measured result(methods.size());
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const ClippingScore s = score(methods[i], scene, truth);
+    result.methods[i] = {s.wrong(), s.covered};
+  }
+  return result;
+}
+
+Measured measure_near_plane(double near_z, bool) {
+  ClippingScene scene = floor_through_eye(static_cast<float>(near_z));
+  scene.size = kSize;
+  return measure_scene(scene);
+}
+
+// Triangles as a floor and a wall beside the camera, each with one vertex at distance w from the camera's
+// plane.
+Measured measure_vertex_w(double w, bool) {
+  ClippingScene s{{}, kSize};
+  Mesh& mesh = s.scene.meshes.emplace_back();
+  s.scene.instances.emplace_back();
+  s.scene.camera.fov_y = static_cast<float>(2 * arctangent(1, 2));
+  s.scene.camera.near_z = 0.1f;
+  s.scene.camera.far_z = 50.0f;
+  const auto z = static_cast<float>(-w);
+  mesh.positions = {{-4, -1, -12}, {4, -1, -12}, {0.3f, -1, z}, {-2, 3, -12}, {-1, -0.8f, z}, {-2, -3, -12}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  mesh.colours = {rgb(200, 0, 0), rgb(0, 200, 0)};
+  return measure_scene(s);
+}
+
+}  // namespace
+
+std::vector<Sweep> clipping_sweeps() {
+  return {{"near_plane",
+           Family::clipping,
+           "a floor under the camera, through a wall at 10: depths get too coarse",
+           {"near plane's distance", "", true},
+           kWrongPixels,
+           0.2,
+           decades(1, -6),
+           measure_near_plane},
+          {"vertex_w",
+           Family::clipping,
+           "a floor and a wall with a vertex near the camera's plane; near 0.1",
+           {"w of the vertex", "", true},
+           kWrongPixels,
+           0.1,
+           decades(1, -6),
+           measure_vertex_w},
+          {"origin",
+           Family::clipping,
+           "a tiled floor under the camera, both far from the origin; near 1/1024",
+           {"distance from origin", "", true},
+           kWrongPixels,
+           1,
+           decades(0, 8),
+           [](double away, bool) { return measure_scene(floor_far_from_origin(away)); }}};
+}
+
+}  // namespace edgewise::lab

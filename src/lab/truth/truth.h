@@ -1,0 +1,123 @@
+// The two exact truths against which methods are scored. Both apply the fill rule at each sample.
+//   SnappedTruth: on the snapped positions, in 128-bit integers. Errors against it are errors of arithmetic.
+//   FloatTruth:   on the positions before snapping, in doubles with an error bound, and in GMP's rationals
+//   where
+//                 the bound leaves a sign open. Errors against it are errors of arithmetic and of snapping.
+// They share no arithmetic with edgewise/contract.h or with any backend.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "edgewise/frontend.h"
+#include "edgewise/screen_triangle.h"
+#include "lab/method.h"
+#include "lab/truth/ball_arithmetic.h"
+
+namespace edgewise::lab {
+
+// The part of the pixel plane that is drawn and compared. Images begin at (0, 0); windows elsewhere test
+// coordinates far from the origin.
+struct Window {
+  int width, height;  // px
+  int x0 = 0, y0 = 0;
+
+  int x1() const { return x0 + width; }
+  int y1() const { return y0 + height; }
+};
+
+// Pixels [x0, x1) of a row, drawn for one triangle.
+struct Run {
+  std::uint32_t triangle;  // index
+  std::int32_t y, x0, x1;
+  auto operator<=>(const Run&) const = default;
+};
+
+// A sample strictly inside is covered; one on an edge is covered if the triangle lies below that edge (a top
+// edge) or to the right of it (a left edge).
+class FillRule {
+ public:
+  // `facing` is the sign of cross(v0, v1, v2) below: 1 is clockwise on the y-down screen.
+  template <typename Y>
+  FillRule(const Y (&y)[3], int facing) : facing_(facing) {
+    for (int i = 0; i < 3; ++i) {
+      const Y &from = y[i], &to = y[(i + 1) % 3], &third = y[(i + 2) % 3];
+      // A clockwise triangle lies to the right of an edge that runs upwards.
+      lean_[i] = from == to ? 0 : from > to ? facing : -facing;
+      accepts_ties_[i] = lean_[i] > 0 || (lean_[i] == 0 && third > from);
+    }
+  }
+  int facing() const { return facing_; }
+  // The side of an edge on which the triangle lies: 1 right, -1 left, 0 if the edge is horizontal.
+  int lean(int edge) const { return lean_[edge]; }
+  // `side` is the sign of cross(from, to, sample).
+  bool accepts(int edge, int side) const { return side == 0 ? accepts_ties_[edge] : side == facing_; }
+
+ private:
+  int facing_, lean_[3];
+  bool accepts_ties_[3];
+};
+
+// Both truths have the same interface. Edge i runs from vertex i to the next one; a pixel's sample is its
+// centre.
+class SnappedTruth {
+ public:
+  explicit SnappedTruth(const ScreenTriangle& triangle);
+  int facing() const { return rule_.facing(); }  // 1 front (clockwise), -1 back, 0 without area
+  bool covers(int px, int py) const;
+  bool accepts(int edge, int px, int py) const;
+  // On the exact plane, in depth units of rule 6. The triangle must have area.
+  mpq_class depth(int px, int py) const;
+  Ball depth_estimate(int px, int py) const;
+
+  const FillRule& rule() const { return rule_; }
+  double x_px(int vertex) const { return triangle_.x_sub[vertex] / 256.0; }
+  double y_px(int vertex) const { return triangle_.y_sub[vertex] / 256.0; }
+
+ private:
+  ScreenTriangle triangle_;
+  FillRule rule_;
+};
+
+class FloatTruth {
+ public:
+  // Coordinates and depths must be finite.
+  explicit FloatTruth(const UnsnappedTriangle& triangle);
+  int facing() const { return rule_.facing(); }
+  bool covers(int px, int py) const;
+  bool accepts(int edge, int px, int py) const;
+  // On the exact plane, in the unit of z01. The triangle must have area.
+  mpq_class depth(int px, int py) const;
+  Ball depth_estimate(int px, int py) const;
+
+  const FillRule& rule() const { return rule_; }
+  double x_px(int vertex) const { return double{triangle_.x_px[vertex]}; }
+  double y_px(int vertex) const { return double{triangle_.y_px[vertex]}; }
+
+ private:
+  UnsnappedTriangle triangle_;
+  FillRule rule_;
+};
+
+// All covered pixels, sorted by triangle and row; a triangle has at most one run per row.
+std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
+std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
+
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
+// The visible triangle of each pixel, row by row: the nearest one, at a tie the earlier one, by exact
+// comparison.
+struct VisibleTriangles {
+  Window window;
+  std::vector<std::uint32_t> triangle;  // its index, or kNoTriangle
+  std::vector<double> depth;            // of that triangle, within a relative error of 2^-40; else infinity
+};
+VisibleTriangles exact_visible_triangles(std::span<const ScreenTriangle> triangles, Window window,
+                                         int threads);
+VisibleTriangles exact_visible_triangles(std::span<const FloatTriangle> triangles, Window window,
+                                         int threads);
+
+}  // namespace edgewise::lab
