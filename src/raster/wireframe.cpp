@@ -18,7 +18,7 @@
 //
 // Widths: v0 du and dv (s - u0) are at most 2^46 each, and twice z du is at most 2^55, so int64 suffices.
 // Quotients are stepped exactly, with their remainders, so a drawing that starts inside the edge has the same
-// pixels.
+// pixels. Doubles find which pixels outside the frame or band to skip; half a pixel is left for rounding.
 //
 // On several threads, bands of the frame are drawn in parallel, and each band visits all triangles: comparing
 // y is cheap beside drawing an edge. Bins are no help, since they drop triangles without a sample in their
@@ -98,11 +98,20 @@ class Edges {
     const bool along_x = std::abs(t.x_sub[j] - t.x_sub[i]) >= std::abs(t.y_sub[j] - t.y_sub[i]);
     const std::int32_t *const us = along_x ? t.x_sub : t.y_sub, *const vs = along_x ? t.y_sub : t.x_sub;
     if (us[i] > us[j]) std::swap(i, j);
-    const Interval along = along_x ? columns_ : rows_;
-    const int begin = std::max(first_sample(us[i]), along.begin),
-              end = std::min(first_sample(us[j]), along.end);
+    const Interval along = along_x ? columns_ : rows_, across = along_x ? rows_ : columns_;
+    int begin = std::max(first_sample(us[i]), along.begin), end = std::min(first_sample(us[j]), along.end);
     if (begin >= end) return;
     const std::int64_t du = us[j] - us[i], dv = vs[j] - vs[i], dz = std::int64_t{t.z[j]} - t.z[i];
+    if (const auto [low, high] = std::minmax({vs[i], vs[j]});
+        pixel_of(low) < across.begin || pixel_of(high) >= across.end) {
+      if (dv == 0) return;
+      const double step = static_cast<double>(du) / static_cast<double>(dv);
+      const auto u_at = [&](int v) { return (us[i] + (v * kSub - vs[i]) * step) / kSub; };
+      const auto [first, last] = std::minmax({u_at(across.begin), u_at(across.end)});
+      const int least = begin;
+      begin = static_cast<int>(std::clamp<double>(first - 1, least, end));
+      end = static_cast<int>(std::clamp<double>(last + 1, least, end));
+    }
     const std::int64_t done = sample_sub(begin) - us[i];
     Quotient v(vs[i] * du + dv * done, du * kSub, dv * kSub);
     Quotient z(2 * (t.z[i] * du + dz * done) + du, 2 * du, 2 * dz * kSub);
