@@ -3,6 +3,7 @@
 #include <hwy/highway.h>
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/lanes-inl.h"
 #include "edgewise/screen_triangle.h"
@@ -18,6 +19,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
+
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has no pairs of lanes
+using Pairs = hn::Repartition<std::int64_t, D>;
+constexpr int kPairs = static_cast<int>(hn::MaxLanes(Pairs{}));
+#endif
 
 constexpr std::size_t kPrefetchBytes = 2560;  // prefetch distance
 
