@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -92,8 +93,18 @@ std::vector<ScreenTriangle> one_by_one(const Drawable& drawable, FrontendOptions
   return triangles;
 }
 
+void expect_within_the_contract(std::span<const ScreenTriangle> triangles) {
+  for (const ScreenTriangle& t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_LE(std::max(std::abs(t.x_sub[k]), std::abs(t.y_sub[k])), contract::kGuardSub);
+      ASSERT_GE(t.z[k], contract::kDepthHead);
+      ASSERT_LE(t.z[k], contract::kDepthHead + contract::kDepthRange);
+    }
+}
+
 void expect_all_alike(const Drawable& drawable, const FrontendOptions& options) {
   const auto expected = one_by_one(drawable, options);
+  expect_within_the_contract(expected);
   const FrontendStats stats = run(drawable, options, {.target = SimdTarget::scalar}).stats;
   EXPECT_GT(stats.emitted, 0u);
   const auto targets = supported_targets();

@@ -102,30 +102,6 @@ TEST(Frontend, ClipsAtTheNearPlaneBeforeProjection) {
   EXPECT_EQ(run(loose({{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}})).stats.emitted, 0u) << "wholly behind";
 }
 
-TEST(Frontend, EveryTriangleStaysWithinTheContract) {
-  Random random(5);
-  std::vector<glm::vec3> positions;
-  for (int i = 0; i < 30'000; ++i) {
-    const float reach = std::pow(10.0f, random.uniform(-3.0f, 6.0f));
-    positions.emplace_back(random.uniform(-reach, reach), random.uniform(-reach, reach),
-                           random.uniform(-reach, reach));
-  }
-  Scene scene = loose(positions);
-  scene.camera.near_z = 1e-4f;
-  scene.camera.far_z = 1e7f;
-  const auto result = run(scene);
-  expect_consistent(result.stats);
-  EXPECT_GT(result.stats.clipped_guard, 0u);
-  EXPECT_GT(result.stats.clipped_near, 0u);
-  for (const auto& t : result.triangles)
-    for (int i = 0; i < 3; ++i) {
-      ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
-      ASSERT_LE(std::abs(t.y_sub[i]), contract::kGuardSub);
-      ASSERT_GE(t.z[i], contract::kDepthHead);
-      ASSERT_LE(t.z[i], contract::kDepthHead + contract::kDepthRange);
-    }
-}
-
 // Corners within a sub-unit of the guard band: clipping and snapping make the polygons slightly concave, so
 // that a fan would have a piece of opposite winding that covers a sample.
 TEST(Frontend, PiecesOfAClippedTriangleKeepItsWinding) {
