@@ -19,7 +19,7 @@
 #include "edgewise/edgewise.h"
 #include "edgewise/hash.h"
 #include "edgewise/visible.h"
-#include "frontend/scene_edits.h"
+#include "frontend/checked_edits.h"
 #include "raster/checks.h"
 
 using namespace edgewise;

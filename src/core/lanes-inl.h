@@ -1,11 +1,12 @@
-// Vectors of up to sixteen 32-bit lanes, used for pixels, blocks and triangles: masks as bits, and selection
-// of lanes.
+// Vectors of up to sixteen 32-bit lanes, used for pixels, blocks, vertices and triangles: masks as bits,
+// selection of lanes, and transposition of records.
 #include <hwy/highway.h>
 
 #include <cstdint>
 #include <cstring>
 
 #include "core/little_endian.h"
+#include "edgewise/screen_triangle.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -22,6 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<std::int32_t, 16>;
 using V = hn::Vec<D>;
+using DF = hn::Rebind<float, D>;
+using VF = hn::Vec<DF>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 constexpr int kBatch = 32;  // triangles of a segment that a kernel sets up together, at most
 
@@ -82,6 +85,121 @@ class Selection {
   hn::Mask<D> mask_;
 };
 #endif
+
+// Records in memory ↔ vectors with one record per lane, by transpositions of four words of four records: one
+// memory access per record, where gathers need one per word.
+
+// Four words of each lane's record: word[k] holds word k of all lanes.
+struct Words {
+  V word[4];
+};
+
+#if HWY_TARGET == HWY_SCALAR
+
+template <typename At>
+HWY_INLINE Words load_words(At&& at) {
+  const D d;
+  std::int32_t word[4];
+  std::memcpy(word, at(0), sizeof word);  // they may be floats
+  return {{hn::Set(d, word[0]), hn::Set(d, word[1]), hn::Set(d, word[2]), hn::Set(d, word[3])}};
+}
+
+template <typename At>
+HWY_INLINE void store_words(const Words& w, At&& at) {
+  for (int k = 0; k < 4; ++k) hn::StoreU(w.word[k], D{}, at(0) + k);
+}
+
+#else
+
+// Loads the records of lanes 0, 4, 8, …, four words each, into consecutive blocks of four lanes.
+template <class Tag, typename At>
+HWY_INLINE hn::Vec<Tag> load_blocks(Tag d, At&& at) {
+  if constexpr (hn::MaxLanes(Tag{}) == 4) {
+    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(at(0)));
+  } else {
+    const hn::Half<Tag> half;
+    constexpr int kUpper = hn::MaxLanes(Tag{}) / 2;
+    return hn::Combine(d, load_blocks(half, [&](int lane) { return at(lane + kUpper); }),
+                       load_blocks(half, at));
+  }
+}
+
+HWY_INLINE Words transpose(const Words& w) {
+  const D d;
+  const hn::Repartition<std::int64_t, D> pairs;
+  const auto low01 = hn::BitCast(pairs, hn::InterleaveLower(d, w.word[0], w.word[1]));
+  const auto low23 = hn::BitCast(pairs, hn::InterleaveLower(d, w.word[2], w.word[3]));
+  const auto high01 = hn::BitCast(pairs, hn::InterleaveUpper(d, w.word[0], w.word[1]));
+  const auto high23 = hn::BitCast(pairs, hn::InterleaveUpper(d, w.word[2], w.word[3]));
+  return {{hn::BitCast(d, hn::InterleaveLower(pairs, low01, low23)),
+           hn::BitCast(d, hn::InterleaveUpper(pairs, low01, low23)),
+           hn::BitCast(d, hn::InterleaveLower(pairs, high01, high23)),
+           hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23))}};
+}
+
+// at(lane) points to the four words of a lane, of any 32-bit type.
+template <typename At>
+HWY_INLINE Words load_words(At&& at) {
+  const auto every_fourth = [&](int first) {
+    return load_blocks(D{}, [&](int lane) { return at(lane + first); });
+  };
+  return transpose({{every_fourth(0), every_fourth(1), every_fourth(2), every_fourth(3)}});
+}
+
+template <class Vector, typename At>
+HWY_INLINE void store_records(const Vector (&blocks)[4], At&& at) {
+  using Tag = hn::DFromV<Vector>;
+  if constexpr (hn::MaxLanes(Tag{}) == 4) {
+    for (int k = 0; k < 4; ++k) hn::StoreU(blocks[k], Tag{}, at(k));
+  } else {
+    const hn::Half<Tag> half;
+    using HalfVector = hn::Vec<hn::Half<Tag> >;
+    const HalfVector lower[4] = {hn::LowerHalf(half, blocks[0]), hn::LowerHalf(half, blocks[1]),
+                                 hn::LowerHalf(half, blocks[2]), hn::LowerHalf(half, blocks[3])};
+    const HalfVector upper[4] = {hn::UpperHalf(half, blocks[0]), hn::UpperHalf(half, blocks[1]),
+                                 hn::UpperHalf(half, blocks[2]), hn::UpperHalf(half, blocks[3])};
+    constexpr int kUpper = hn::MaxLanes(Tag{}) / 2;
+    store_records(lower, at);
+    store_records(upper, [&](int lane) { return at(lane + kUpper); });
+  }
+}
+
+// Stores in the order of the lanes: if two lanes have the same address, the later one stays.
+template <typename At>
+HWY_INLINE void store_words(const Words& words, At&& at) {
+  store_records(transpose(words).word, at);
+}
+
+#endif
+
+struct TriangleLanes {
+  V x[3], y[3], z[3], payload;
+};
+
+// at(lane) points to the triangle of a lane.
+template <typename At>
+HWY_INLINE TriangleLanes load_triangles(At&& at) {
+  const auto words = [&](int first) {
+    return load_words([&](int lane) { return reinterpret_cast<const std::int32_t*>(at(lane)) + first; });
+  };
+  const Words a = words(0), b = words(4), c = words(6);  // reads words 6 and 7 twice: ten in all
+  return {{a.word[0], a.word[1], a.word[2]},
+          {a.word[3], b.word[0], b.word[1]},
+          {b.word[2], b.word[3], c.word[2]},
+          c.word[3]};
+}
+
+// As store_words().
+template <typename At>
+HWY_INLINE void store_triangles(const TriangleLanes& t, At&& at) {
+  const auto store = [&](int first, V v0, V v1, V v2, V v3) {
+    store_words({{v0, v1, v2, v3}},
+                [&](int lane) { return reinterpret_cast<std::int32_t*>(at(lane)) + first; });
+  };
+  store(0, t.x[0], t.x[1], t.x[2], t.y[0]);
+  store(4, t.y[1], t.y[2], t.z[0], t.z[1]);
+  store(6, t.z[0], t.z[1], t.z[2], t.payload);  // writes words 6 and 7 again
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise

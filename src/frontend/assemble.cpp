@@ -5,8 +5,7 @@
 #define HWY_TARGET_INCLUDE "frontend/assemble.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// These need Highway first.
-#include "frontend/cull-inl.h"
+// This needs Highway first.
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
@@ -19,32 +18,31 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 // Returns false and appends nothing if add_one() must handle these triangles.
-template <bool kFlagged>
 HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, const Corners& corners,
                                 std::size_t offset, ChunkOutput& out) {
   if (task.one_by_one()) return false;
-  const DI d;
+  const D d;
   const std::uint32_t* index = &corners.indices[offset].x;
-  const auto corner = [&](std::size_t k) HWY_ATTR {
-    return load_words([&](std::size_t lane) { return corners.at(index[lane * 3 + k]); });
+  const auto corner = [&](int k) HWY_ATTR {
+    return load_words([&](int lane) { return corners.at(index[lane * 3 + k]); });
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
-  const VI common = hn::And(a.word[3], hn::And(b.word[3], c.word[3]));
-  const MI outside = hn::Ne(hn::And(common, hn::Set(d, kInvisible)), hn::Zero(d));
-  const VI any = hn::Or(a.word[3], hn::Or(b.word[3], c.word[3]));
-  const MI special = hn::Ne(hn::And(any, hn::Set(d, kMustClip | kNotFinite)), hn::Zero(d));
+  const V common = hn::And(a.word[3], hn::And(b.word[3], c.word[3]));
+  const auto outside = hn::Ne(hn::And(common, hn::Set(d, kInvisible)), hn::Zero(d));
+  const V any = hn::Or(a.word[3], hn::Or(b.word[3], c.word[3]));
+  const auto special = hn::Ne(hn::And(any, hn::Set(d, kMustClip | kNotFinite)), hn::Zero(d));
   if (!hn::AllFalse(d, hn::AndNot(outside, special))) return false;
-  cull_and_append<kFlagged>({{a.word[0], b.word[0], c.word[0]},
-                             {a.word[1], b.word[1], c.word[1]},
-                             {a.word[2], b.word[2], c.word[2]},
-                             counting_from(task.first_id + first)},
-                            outside, task.options.cull, out, task.mesh.flags.data() + (kFlagged ? first : 0));
+  cull_and_append({{a.word[0], b.word[0], c.word[0]},
+                   {a.word[1], b.word[1], c.word[1]},
+                   {a.word[2], b.word[2], c.word[2]},
+                   counting_from(static_cast<int>(task.first_id + first))},
+                  outside, task.options.cull, out,
+                  task.mesh.flags.empty() ? nullptr : &task.mesh.flags[first]);
   return true;
 }
 
-template <bool kFlagged>
-void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
-                  ChunkOutput& out) {
+void assemble(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
+              ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const glm::uvec3 t = corners.indices[i - begin];
@@ -53,12 +51,12 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, cons
   };
   std::size_t i = begin;
   for (; i + kLanes <= end; i += kLanes)
-    if (!assemble_vector<kFlagged>(task, i, corners, i - begin, out)) one_by_one(i, i + kLanes);
+    if (!assemble_vector(task, i, corners, i - begin, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
 }
 
 IndexRange index_range(const Mesh& mesh, std::size_t begin, std::size_t end) {
-  const hn::RebindToUnsigned<DI> d;
+  const hn::RebindToUnsigned<D> d;
   const std::uint32_t* index = &mesh.triangles[begin].x;
   const std::size_t count = 3 * (end - begin);
   auto least = hn::Set(d, index[0]), most = least;
@@ -73,14 +71,6 @@ IndexRange index_range(const Mesh& mesh, std::size_t begin, std::size_t end) {
                 last = *std::max_element(mosts, mosts + kLanes);
   for (; i < count; ++i) first = std::min(first, index[i]), last = std::max(last, index[i]);
   return {first, last};
-}
-
-void assemble(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
-              ChunkOutput& out) {
-  if (task.mesh.flags.empty())
-    assemble_all<false>(task, begin, end, corners, out);
-  else
-    assemble_all<true>(task, begin, end, corners, out);
 }
 
 }  // namespace HWY_NAMESPACE

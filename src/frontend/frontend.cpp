@@ -3,7 +3,6 @@
 //   shades them (shade.cpp).
 // - streams: stream.cpp
 // - special cases of both: one_by_one.cpp, clip.cpp
-// - output in the order of submission: in_order.h
 #include "edgewise/frontend.h"
 
 #include <algorithm>
@@ -11,29 +10,22 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/execution.h"
 #include "core/float_state.h"
+#include "core/parallel.h"
 #include "edgewise/contract.h"
-#include "frontend/in_order.h"
+#include "frontend/scene_checks.h"
 #include "frontend/scene_maker.h"
-#include "frontend/sources.h"
-#include "frontend/submission.h"
 #include "frontend/tasks.h"
+#include "frontend/triangle_maker.h"
 
 namespace edgewise {
 
 namespace {
 
 constexpr Cull kCullModes[] = {Cull::none, Cull::back, Cull::front, Cull::both};
-
-std::size_t submitted(const Drawable& drawable) {
-  if (const auto* stream = std::get_if<TriangleStream>(&drawable)) return stream->triangles.size();
-  const auto& scene = std::get<Scene>(drawable);
-  std::size_t triangles = 0;
-  for (const auto& instance : scene.instances) triangles += mesh_of(scene, instance).triangles.size();
-  return triangles;
-}
 
 }  // namespace
 
@@ -66,19 +58,18 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
 }
 
 struct Frontend::State {
-  SceneMaker maker;
-  InOrder order;
+  SceneMaker scene_maker;
+  StreamMaker stream_maker;
+  TriangleMaker* maker = nullptr;  // of the last frame
   TriangleBuffers visible;
-  std::size_t unsnapped_count = 0;  // valid ones
   Buffer<TriangleState> states;
-  std::size_t state_count = 0;  // valid ones
+  std::size_t unsnapped_count = 0, state_count = 0;  // valid ones
   FrontendStats stats;
   FrontendOptions options;
   Execution execution;
-  std::variant<std::monostate, StreamSource, SceneSource> source;
 
   // Throws std::invalid_argument.
-  void set(const FrontendOptions& o, const Execution& e) {
+  void set(const Drawable& drawable, const FrontendOptions& o, const Execution& e) {
     unsnapped_count = state_count = 0;
     for (const int side : {o.width, o.height})
       if (side < 1 || side > contract::kMaxImageSide)
@@ -86,86 +77,75 @@ struct Frontend::State {
                                     std::to_string(contract::kMaxImageSide));
     execution = checked(e);
     options = o;
-  }
-
-  // As many as have work.
-  int workers_for(std::size_t count, std::size_t length) const {
-    const auto threads = count < kWorthThreads ? 1 : static_cast<std::size_t>(execution.threads);
-    return static_cast<int>(std::clamp((count + length - 1) / length, std::size_t{1}, threads));
-  }
-
-  // Calls make(worker, begin, end, output, ready) for ranges of `length` inputs; if there is one worker, for
-  // all `count` at once, unless there are none.
-  template <typename Make>
-  void for_each_range(std::size_t count, std::size_t length, Make&& make) {
-    const int workers = workers_for(count, length);
-    order.start_frame(workers, workers > 1 ? length : 0, options.keep_unsnapped);
-    if (workers == 1) length = std::max(count, std::size_t{1});
-    order.for_each_range((count + length - 1) / length, workers, visible,
-                         [&](int worker, std::size_t range, ChunkOutput& out, auto&& ready) {
-                           const std::size_t begin = range * length;
-                           make(worker, begin, std::min(count, begin + length), out, ready);
-                         });
-  }
-
-  // Long ranges share few vertices. Short ones keep all workers busy until the end.
-  std::size_t range_length(std::size_t count) const {
-    constexpr std::size_t kLeast = kChunkTriangles, kMost = 32768;
-    static_assert(InOrder::kBuffers * (kMost + ChunkOutput::kChunkRoom) * sizeof(ScreenTriangle) +
-                      VertexWindow::kBytes <
-                  8'000'000);  // as frontend.h promises for a thread
-    static_assert(InOrder::kBuffers * (kMost + ChunkOutput::kChunkRoom) * sizeof(UnsnappedTriangle) <
-                  6'000'000);
-    return std::clamp(count / (16 * static_cast<std::size_t>(execution.threads)), kLeast, kMost);
-  }
-
-  void run_scene(const Scene& scene, std::size_t count) {
-    const std::size_t length = range_length(count);
-    maker.start_frame(scene, options, execution.target, options.keep_states ? states.data() : nullptr,
-                      workers_for(count, length));
-    for_each_range(count, length,
-                   [&](int worker, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& ready) {
-                     maker.make(worker, begin, end, out, ready);
-                   });
-    maker.end_frame(stats);
-  }
-
-  void run_stream(const TriangleStream& stream) {
-    const StreamKernel kernel = stream_kernel(execution.target);
-    const StreamTask task{options, stream, options.keep_states ? states.data() : nullptr};
-    const std::size_t count = stream.triangles.size();
-    stats.triangles = count;
-    for_each_range(count, range_length(count),
-                   [&](int, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& ready) {
-                     for (; begin < end; begin += kChunkTriangles) {
-                       ready();
-                       kernel(task, begin, std::min(end, begin + kChunkTriangles), out);
-                     }
-                   });
-  }
-
-  void run_once(const Drawable& drawable, std::size_t count, std::size_t room) {
-    visible.reserve(room + ChunkOutput::kChunkRoom, options.keep_unsnapped);
-    stats = {};
     if (const auto* scene = std::get_if<Scene>(&drawable))
-      run_scene(*scene, count);
+      scene_maker.set(*scene, options, execution.target), maker = &scene_maker;
     else
-      run_stream(std::get<TriangleStream>(drawable));
-    stats += order.stats();
+      stream_maker.set(std::get<TriangleStream>(drawable), options, execution.target), maker = &stream_maker;
+    checked_count(maker->size(), options.payload == Payload::id ? options.first_id : 0);
   }
 
-  std::uint32_t first_id() const { return options.payload == Payload::id ? options.first_id : 0; }
-
-  void run(const Drawable& drawable) {
-    const std::size_t count = checked_count(submitted(drawable), first_id());
+  // Makes all triangles, in order. Returns their number.
+  std::size_t run() {
+    // Long ranges share few vertices. Short ones keep all workers busy until the end.
+    constexpr std::size_t kShortest = kChunkTriangles, kLongest = 16384;
+    static_assert(ChunkOutput::room_for(kLongest) * sizeof(ScreenTriangle) + VertexWindow::kBytes <
+                  8'000'000);  // as frontend.h promises for a thread
+    static_assert(ChunkOutput::room_for(kLongest) * sizeof(UnsnappedTriangle) < 6'000'000);
+    const std::size_t count = maker->size();
+    const auto threads = static_cast<std::size_t>(count < kWorthThreads ? 1 : execution.threads);
+    const std::size_t length =
+        threads == 1 ? kLongest : std::clamp(count / (16 * threads), kShortest, kLongest);
+    const std::size_t workers = std::clamp((count + length - 1) / length, std::size_t{1}, threads);
     if (options.keep_states) states.reserve(count);
-    run_once(drawable, count, count);
-    // Clipping added more triangles than were dropped. This is rare, and the memory then suffices for the
-    // next frames of the kind.
-    if (order.total() + ChunkOutput::kChunkRoom > visible.screen.capacity())
-      run_once(drawable, count, checked_count(order.total()));
-    if (options.keep_unsnapped) unsnapped_count = order.total();
+    maker->start_workers(static_cast<int>(workers), workers == 1 ? 0 : length,
+                         options.keep_states ? states.data() : nullptr);
+    // Clipping rarely adds more triangles than are dropped.
+    visible.reserve(count + ChunkOutput::room_for(length), options.keep_unsnapped);
+    const std::size_t total = workers == 1 ? run_alone(length) : run_together(length, workers);
+    maker->finish();
+    stats = maker->stats();
+    if (options.keep_unsnapped) unsnapped_count = total;
     if (options.keep_states) state_count = count;
+    return total;
+  }
+
+  // Makes triangles where they stay.
+  std::size_t run_alone(std::size_t length) {
+    const std::size_t count = maker->size();
+    ChunkOutput& out = maker->output(0);
+    std::size_t total = 0;
+    for (std::size_t begin = 0; begin < count; begin += length) {
+      visible.grow(total, total + ChunkOutput::room_for(length), options.keep_unsnapped);
+      out.write_to(visible, total);
+      maker->append(0, begin, std::min(count, begin + length), out);
+      total = checked_count(total + out.count);
+    }
+    return total;
+  }
+
+  // In each round, every worker copies what it made in the previous one to its place, and makes a range.
+  std::size_t run_together(std::size_t length, std::size_t workers) {
+    const std::size_t count = maker->size();
+    std::vector<std::size_t> places(workers);
+    std::size_t total = 0;
+    for (std::size_t round = 0;; round += workers * length) {
+      parallel_for(static_cast<int>(workers), static_cast<int>(workers), [&](int worker) {
+        const auto i = static_cast<std::size_t>(worker);
+        const ChunkOutput& made = maker->output(worker);
+        std::copy_n(made.triangles, made.count, visible.screen.data() + places[i]);
+        if (options.keep_unsnapped)
+          std::copy_n(made.unsnapped, made.count, visible.unsnapped.data() + places[i]);
+        const std::size_t begin = std::min(count, round + i * length);
+        maker->make(worker, begin, std::min(count, begin + length));
+      });
+      if (round >= count) return total;
+      const std::size_t placed = total;
+      for (std::size_t i = 0; i < workers; ++i) {
+        places[i] = total;
+        total = checked_count(total + maker->output(static_cast<int>(i)).count);
+      }
+      visible.grow(placed, total, options.keep_unsnapped);
+    }
   }
 };
 
@@ -178,30 +158,21 @@ ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& o
                               const Execution& execution) {
   const DefaultFloatState state;
   State& s = *state_;
-  s.set(options, execution);
-  s.run(drawable);
-  return {{s.visible.screen.data(), s.order.total()}, options.width, options.height};
+  s.set(drawable, options, execution);
+  const std::size_t total = s.run();
+  return {{s.visible.screen.data(), total}, options.width, options.height};
 }
 
 TriangleSource* Frontend::start_source(const Drawable& drawable, const FrontendOptions& options,
                                        const Execution& execution) {
-  State& s = *state_;
-  s.set(options, execution);
+  state_->set(drawable, options, execution);
   if (options.keep_unsnapped || options.keep_states) return nullptr;
-  s.stats = {};
-  const std::size_t count = checked_count(submitted(drawable), s.first_id());
-  s.order.start_frame(execution.threads, kChunkTriangles, false);
-  if (const auto* stream = std::get_if<TriangleStream>(&drawable)) {
-    s.stats.triangles = count;
-    return &s.source.emplace<StreamSource>(s.options, s.execution.target, *stream, s.order);
-  }
-  s.maker.start_frame(std::get<Scene>(drawable), s.options, s.execution.target, nullptr, execution.threads);
-  return &s.source.emplace<SceneSource>(s.maker, s.stats, count, s.order);
+  state_->maker->start_workers(execution.threads, TriangleSource::kInputsAtOnce, nullptr);
+  return state_->maker;
 }
 
 void Frontend::end_source() {
-  state_->source.emplace<std::monostate>();
-  state_->stats += state_->order.stats();
+  state_->stats = state_->maker->stats();
 }
 
 const FrontendStats& Frontend::stats() const {

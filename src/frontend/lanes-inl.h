@@ -1,7 +1,6 @@
-// Vectors of the front end's kernels, with one vertex or triangle per lane. 4 x 4 transpositions convert
-// between records in memory and vectors: one memory access per record, where gathers need one per number.
+// The steps that the front end's kernels share, in vectors with one vertex or triangle per lane.
 //
-// Compiled once per SIMD target. Include it after hwy/highway.h, in a file that uses foreach_target.h.
+// Compiled once per SIMD target.
 #if defined(EDGEWISE_FRONTEND_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_FRONTEND_LANES_INL_H
 #undef EDGEWISE_FRONTEND_LANES_INL_H
@@ -9,154 +8,57 @@
 #define EDGEWISE_FRONTEND_LANES_INL_H
 #endif
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-
+#include "core/lanes-inl.h"
 #include "frontend/fixed.h"
+#include "frontend/tasks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DI = hn::CappedTag<std::int32_t, 16>;
-using DF = hn::Rebind<float, DI>;
-using VI = hn::Vec<DI>;
-using VF = hn::Vec<DF>;
-// Triangles or vertices that are processed together.
-constexpr std::size_t kLanes = hn::MaxLanes(DI{});
-
-// first, first + 1, … core/lanes-inl.h says why this is not Iota(first).
-HWY_INLINE VI counting_from(std::size_t first) {
-  return hn::Add(hn::Iota(DI{}, 0), hn::Set(DI{}, static_cast<std::int32_t>(first)));
+HWY_INLINE VF real(V words) {
+  return hn::BitCast(DF{}, words);
 }
 
-// Four words of each lane's record: word[k] holds word k of all lanes.
-struct Words {
-  VI word[4];
-};
-
+// f() of the arguments in double, rounded or truncated to Tag's type.
+template <class Tag, typename F, class... Vectors>
+HWY_INLINE hn::Vec<Tag> in_double(Tag d, F&& f, Vectors... v) {
 #if HWY_TARGET == HWY_SCALAR
-
-template <typename At>
-HWY_INLINE Words load_words(At&& at) {
-  const DI d;
-  std::int32_t word[4];
-  std::memcpy(word, at(0), sizeof word);  // they may be floats
-  return {{hn::Set(d, word[0]), hn::Set(d, word[1]), hn::Set(d, word[2]), hn::Set(d, word[3])}};
-}
-
-template <typename At>
-HWY_INLINE void store_words(const Words& w, At&& at) {
-  for (int k = 0; k < 4; ++k) hn::StoreU(w.word[k], DI{}, at(0) + k);
-}
-
-// f() of the arguments in double, rounded or truncated to D's type.
-template <class D, typename F, class... V>
-HWY_INLINE hn::Vec<D> in_double(D d, F&& f, V... v) {
-  const hn::Rebind<double, D> wide;
+  const hn::Rebind<double, Tag> wide;
   return hn::DemoteTo(d, f(hn::PromoteTo(wide, v)...));
-}
-
 #else
-
-// Loads the records of lanes 0, 4, 8, …, four words each, into consecutive blocks of four lanes.
-template <class D, typename At>
-HWY_INLINE hn::Vec<D> load_blocks(D d, At&& at) {
-  if constexpr (hn::MaxLanes(D{}) == 4) {
-    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(at(0)));
-  } else {
-    const hn::Half<D> half;
-    constexpr std::size_t kUpper = hn::MaxLanes(D{}) / 2;
-    return hn::Combine(d, load_blocks(half, [&](std::size_t lane) { return at(lane + kUpper); }),
-                       load_blocks(half, at));
-  }
-}
-
-HWY_INLINE Words transpose(const Words& w) {
-  const DI d;
-  const hn::Repartition<std::int64_t, DI> pairs;
-  const auto low01 = hn::BitCast(pairs, hn::InterleaveLower(d, w.word[0], w.word[1]));
-  const auto low23 = hn::BitCast(pairs, hn::InterleaveLower(d, w.word[2], w.word[3]));
-  const auto high01 = hn::BitCast(pairs, hn::InterleaveUpper(d, w.word[0], w.word[1]));
-  const auto high23 = hn::BitCast(pairs, hn::InterleaveUpper(d, w.word[2], w.word[3]));
-  return {{hn::BitCast(d, hn::InterleaveLower(pairs, low01, low23)),
-           hn::BitCast(d, hn::InterleaveUpper(pairs, low01, low23)),
-           hn::BitCast(d, hn::InterleaveLower(pairs, high01, high23)),
-           hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23))}};
-}
-
-// at(lane) points to the four words of a lane, of any 32-bit type.
-template <typename At>
-HWY_INLINE Words load_words(At&& at) {
-  const DI d;
-  const auto every_fourth = [&](std::size_t first) {
-    return load_blocks(d, [&](std::size_t lane) { return at(lane + first); });
-  };
-  return transpose({{every_fourth(0), every_fourth(1), every_fourth(2), every_fourth(3)}});
-}
-
-template <class V, typename At>
-HWY_INLINE void store_records(V first, V second, V third, V fourth, At&& at) {
-  using D = hn::DFromV<V>;
-  if constexpr (hn::MaxLanes(D{}) == 4) {
-    hn::StoreU(first, D{}, at(0));
-    hn::StoreU(second, D{}, at(1));
-    hn::StoreU(third, D{}, at(2));
-    hn::StoreU(fourth, D{}, at(3));
-  } else {
-    const hn::Half<D> half;
-    constexpr std::size_t kUpper = hn::MaxLanes(D{}) / 2;
-    store_records(hn::LowerHalf(half, first), hn::LowerHalf(half, second), hn::LowerHalf(half, third),
-                  hn::LowerHalf(half, fourth), at);
-    store_records(hn::UpperHalf(half, first), hn::UpperHalf(half, second), hn::UpperHalf(half, third),
-                  hn::UpperHalf(half, fourth), [&](std::size_t lane) { return at(lane + kUpper); });
-  }
-}
-
-// Stores in the order of the lanes: if two lanes have the same address, the later one stays.
-template <typename At>
-HWY_INLINE void store_words(const Words& words, At&& at) {
-  const Words records = transpose(words);
-  store_records(records.word[0], records.word[1], records.word[2], records.word[3], at);
-}
-
-// f() of the arguments in double, rounded or truncated to D's type.
-template <class D, typename F, class... V>
-HWY_INLINE hn::Vec<D> in_double(D d, F&& f, V... v) {
-  const hn::Half<D> half;
-  const hn::Rebind<double, hn::Half<D> > wide;
-  const auto low = f(hn::PromoteTo(wide, hn::LowerHalf(hn::Half<hn::DFromV<V> >{}, v))...);
-  const auto high = f(hn::PromoteTo(wide, hn::UpperHalf(hn::Half<hn::DFromV<V> >{}, v))...);
+  const hn::Half<Tag> half;
+  const hn::Rebind<double, hn::Half<Tag> > wide;
+  const auto low = f(hn::PromoteTo(wide, hn::LowerHalf(hn::Half<hn::DFromV<Vectors> >{}, v))...);
+  const auto high = f(hn::PromoteTo(wide, hn::UpperHalf(hn::Half<hn::DFromV<Vectors> >{}, v))...);
   return hn::Combine(d, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
-}
-
 #endif
+}
 
 // snap(), quantize_depth() and ViewDepth::units() of fixed.h, for vectors.
 
-HWY_INLINE VI snap(VF px) {
+HWY_INLINE V snap(VF px) {
   const DF d;
   const VF limit = hn::Set(d, static_cast<float>(contract::kGuardSub));
   const VF sub = hn::Mul(px, hn::Set(d, static_cast<float>(contract::kSub)));
   const VF magic = hn::Set(d, kRoundFloat);
   const VF rounded = hn::Add(hn::Min(hn::Max(sub, hn::Neg(limit)), limit), magic);
-  return hn::Sub(hn::BitCast(DI{}, rounded), hn::BitCast(DI{}, magic));
+  return hn::Sub(hn::BitCast(D{}, rounded), hn::BitCast(D{}, magic));
 }
 
 // units(v…) in double, rounded half to even, above the head-room.
-template <typename Units, class... V>
-HWY_INLINE VI round_depth(Units&& units, V... v) {
+template <typename Units, class... Vectors>
+HWY_INLINE V round_depth(Units&& units, Vectors... v) {
   const auto whole_units = [&](auto... wide_v) HWY_ATTR {
     auto exact = units(wide_v...);
     const auto magic = hn::Set(hn::DFromV<decltype(exact)>{}, kRoundDouble);
     return hn::Sub(hn::Add(exact, magic), magic);
   };
-  return hn::Add(in_double(DI{}, whole_units, v...), hn::Set(DI{}, contract::kDepthHead));
+  return hn::Add(in_double(D{}, whole_units, v...), hn::Set(D{}, contract::kDepthHead));
 }
 
-HWY_INLINE VI quantize_depth(VF depth01) {
+HWY_INLINE V quantize_depth(VF depth01) {
   const DF d;
   const VF clamped = hn::Min(hn::Max(depth01, hn::Zero(d)), hn::Set(d, 1.0f));
   const auto units = [](auto v) HWY_ATTR {
@@ -165,13 +67,63 @@ HWY_INLINE VI quantize_depth(VF depth01) {
   return round_depth(units, clamped);
 }
 
-HWY_INLINE VI view_depth(const ViewDepth& depth, VF w) {
+HWY_INLINE V view_depth(const ViewDepth& depth, VF w) {
   const auto units = [&](auto v) HWY_ATTR {
     const hn::DFromV<decltype(v)> d;
     const auto exact = hn::Div(hn::Mul(hn::Sub(v, hn::Set(d, depth.near_z)), hn::Set(d, depth.scale)), v);
     return hn::Min(hn::Max(exact, hn::Zero(d)), hn::Set(d, double{contract::kDepthRange}));
   };
   return round_depth(units, w);
+}
+
+// The sign of the area: -1, 0 or 1. Exact in double: a product of two differences has at most 46 bits.
+HWY_INLINE V area_sign(const TriangleLanes& t) {
+  const auto sign = [](auto dx1, auto dy1, auto dx2, auto dy2) HWY_ATTR {
+    const hn::DFromV<decltype(dx1)> d;
+    const auto area = hn::Sub(hn::Mul(dx1, dy2), hn::Mul(dy1, dx2));
+    return hn::Min(hn::Max(area, hn::Set(d, -1.0)), hn::Set(d, 1.0));
+  };
+  return in_double(D{}, sign, hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0]),
+                   hn::Sub(t.y[2], t.y[0]));
+}
+
+// The last step of assemble.cpp and stream.cpp. Appends a vector of triangles that need no clipping, in
+// order. Drops triangles without area or with the wrong facing, and those that `outside` selects, which lie
+// beyond a side of the view. `flags` points to the triangles' flags, or is null.
+HWY_INLINE void cull_and_append(const TriangleLanes& t, hn::Mask<D> outside, Cull cull, ChunkOutput& out,
+                                const std::uint8_t* flags = nullptr) {
+  const D d;
+  const V sign = area_sign(t);
+  const V front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : 2);
+  const V back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : 2);
+  hn::Mask<D> faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));
+  if (flags != nullptr) {
+    const V mark = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, D>{}, flags));
+    const hn::Mask<D> two_sided = hn::Ne(hn::And(mark, hn::Set(d, kTwoSided)), hn::Zero(d));
+    faces = hn::Or(faces, hn::And(two_sided, hn::Ne(sign, hn::Zero(d))));
+  }
+  const hn::Mask<D> keep = hn::AndNot(outside, faces);
+  const hn::Mask<D> zero = hn::AndNot(outside, hn::Eq(sign, hn::Zero(d)));
+  const std::size_t kept = hn::CountTrue(d, keep), flat = hn::CountTrue(d, zero);
+  const std::size_t pieces = kLanes - hn::CountTrue(d, outside);
+  out.stats.outside += kLanes - pieces;
+  out.stats.pieces += pieces;
+  out.stats.zero_area += flat;
+  out.stats.culled += pieces - flat - kept;
+  out.stats.emitted += kept;
+  if (kept == 0) return;
+
+  // A dropped lane is stored where the next kept lane goes, which then overwrites it. Highway's Compress()
+  // copies a table of 1 KB to the stack on AVX2.
+  const std::uint32_t kept_lanes = mask_bits(keep);
+  ScreenTriangle* place[kLanes];
+  ScreenTriangle* next = out.triangles + out.count;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    place[lane] = next;
+    next += kept_lanes >> lane & 1;
+  }
+  store_triangles(t, [&](int lane) { return place[lane]; });
+  out.count += kept;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -14,24 +14,8 @@ namespace {
 // A vertex before snapping.
 struct Unsnapped {
   float x_px, y_px, z01;
+  SourceVertex source;
 };
-
-UnsnappedTriangle triangle_of(const Unsnapped& a, const Unsnapped& b, const Unsnapped& c) {
-  return {{a.x_px, b.x_px, c.x_px}, {a.y_px, b.y_px, c.y_px}, {a.z01, b.z01, c.z01}};
-}
-
-// True, and counted, if the triangle is not finite or lies beyond one side of the view.
-bool drop(const Vertex& a, const Vertex& b, const Vertex& c, FrontendStats& stats) {
-  if ((a.outside | b.outside | c.outside) & kNotFinite) {
-    ++stats.not_finite;
-    return true;
-  }
-  if (a.outside & b.outside & c.outside & kInvisible) {
-    ++stats.outside;
-    return true;
-  }
-  return false;
-}
 
 bool faces_away(std::int64_t area, Cull cull) {
   return cull == Cull::both || (cull == Cull::front && area > 0) || (cull == Cull::back && area < 0);
@@ -42,11 +26,10 @@ struct Source {
   Cull cull;  // none for a two-sided triangle
 };
 
-// Appends a triangle unless it has no area or is culled. `vertices` has unsnapped() and source() of its three
-// vertices.
-template <typename Vertices>
+// Appends a triangle unless it has no area or is culled. unsnapped(k) is vertex k.
+template <typename UnsnappedOf>
 void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
-          const FrontendOptions& options, ChunkOutput& out, const Vertices& vertices) {
+          const FrontendOptions& options, ChunkOutput& out, UnsnappedOf&& unsnapped) {
   FrontendStats& stats = out.stats;
   ++stats.pieces;
   const ScreenTriangle t{
@@ -58,33 +41,16 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
     ++stats.culled;
   } else {
     ++stats.emitted;
-    if (options.keep_unsnapped)
-      out.unsnapped[out.count] =
-          triangle_of(vertices.unsnapped(0), vertices.unsnapped(1), vertices.unsnapped(2));
-    if (out.sources != nullptr)
-      out.sources->push_back({vertices.source(0), vertices.source(1), vertices.source(2)});
+    if (options.keep_unsnapped || out.sources != nullptr) {
+      const Unsnapped u = unsnapped(0), v = unsnapped(1), w = unsnapped(2);
+      if (options.keep_unsnapped)
+        out.unsnapped[out.count] = {
+            {u.x_px, v.x_px, w.x_px}, {u.y_px, v.y_px, w.y_px}, {u.z01, v.z01, w.z01}};
+      if (out.sources != nullptr) out.sources->push_back({u.source, v.source, w.source});
+    }
     out.triangles[out.count++] = t;
   }
 }
-
-// The vertices of a piece of a polygon.
-template <typename Geometry>
-struct PieceVertices {
-  const Geometry& geometry;
-  const Clipper& clipper;
-  std::span<const ClipVertex> polygon;
-  const std::array<std::uint8_t, 3>& at;
-
-  const ClipVertex& vertex(int i) const { return polygon[at[static_cast<std::size_t>(i)]]; }
-  Unsnapped unsnapped(int i) const {
-    const ClipVertex& v = vertex(i);
-    return v.corner >= 0 ? geometry.unsnapped(v.corner) : Unsnapped{x_px(v), y_px(v), geometry.depth01(v)};
-  }
-  SourceVertex source(int i) const {
-    const ClipVertex& v = vertex(i);
-    return v.corner >= 0 ? geometry.source(v.corner) : SourceVertex{v.z, v.w, clipper.weights(v)};
-  }
-};
 
 // The three corners of a triangle that must be clipped. A corner that is inside keeps its snapped position,
 // which it has in other triangles too.
@@ -124,8 +90,11 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
     const auto& at = pieces.corners[i];
-    emit(snapped[at[0]], snapped[at[1]], snapped[at[2]], source, options, out,
-         PieceVertices<Geometry>{geometry, clipper, polygon, at});
+    emit(snapped[at[0]], snapped[at[1]], snapped[at[2]], source, options, out, [&](std::size_t k) {
+      const ClipVertex& v = polygon[at[k]];
+      if (v.corner >= 0) return geometry.unsnapped(v.corner);
+      return Unsnapped{x_px(v), y_px(v), geometry.depth01(v), {v.z, v.w, clipper.weights(v)}};
+    });
   }
 }
 
@@ -134,10 +103,15 @@ template <typename Geometry>
 void add(const Vertex (&corners)[3], const Source& source, const FrontendOptions& options, ChunkOutput& out,
          const Geometry& geometry) {
   const auto& [a, b, c] = corners;
-  if (drop(a, b, c, out.stats)) return;
-  const std::uint32_t sides = (a.outside | b.outside | c.outside) & kMustClip;
-  if (sides != 0) return clip(corners, sides, source, options, out, geometry);
-  emit(a, b, c, source, options, out, geometry);
+  const std::uint32_t any = a.outside | b.outside | c.outside, common = a.outside & b.outside & c.outside;
+  if ((any & kNotFinite) != 0)
+    ++out.stats.not_finite;
+  else if ((common & kInvisible) != 0)
+    ++out.stats.outside;
+  else if ((any & kMustClip) != 0)
+    clip(corners, any & kMustClip, source, options, out, geometry);
+  else
+    emit(a, b, c, source, options, out, [&](int k) { return geometry.unsnapped(k); });
 }
 
 TriangleState state_between(const FrontendStats& before, const FrontendStats& after) {
@@ -177,12 +151,8 @@ struct MeshGeometry {
   Unsnapped unsnapped(int k) const {
     const glm::vec3 v = transform(task.to_screen, position(k));
     const float inverse_w = 1.0f / v.z;
-    return {v.x * inverse_w, v.y * inverse_w,
-            depth01(task.to_screen.has_z ? clip_vertex(k) : as_clip_vertex(v))};
-  }
-  SourceVertex source(int k) const {
-    const double w = double{transform(task.to_screen, position(k)).z};
-    return {task.to_screen.has_z ? clip_vertex(k).z : w, w, weights_of_corner(k)};
+    const ClipVertex c = task.to_screen.has_z ? clip_vertex(k) : as_clip_vertex(v);
+    return {v.x * inverse_w, v.y * inverse_w, depth01(c), {c.z, double{v.z}, weights_of_corner(k)}};
   }
 };
 
@@ -198,9 +168,8 @@ struct StreamGeometry {
   float depth01(const ClipVertex& v) const { return static_cast<float>(v.z); }
   Unsnapped unsnapped(int k) const {
     const glm::vec3 v = triangle.vertex[k];
-    return {v.x, v.y, v.z};
+    return {v.x, v.y, v.z, {double{v.z}, 1.0, weights_of_corner(k)}};
   }
-  SourceVertex source(int k) const { return {double{triangle.vertex[k].z}, 1.0, weights_of_corner(k)}; }
   Vertex vertex(int k) const {
     const std::uint32_t outside = outside_of(clip_vertex(k), view);
     const glm::vec3 v = triangle.vertex[k];

@@ -6,21 +6,19 @@
 #include <string>
 
 #include "core/finite.h"
+#include "frontend/scene_checks.h"
+#include "frontend/triangle_ids.h"
 
 namespace edgewise {
 
 namespace {
 
 void check(const Mesh& mesh) {
-  if (mesh.colours.size() != mesh.triangles.size())
-    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
-                                std::to_string(mesh.colours.size()) + " colours");
+  check_per_triangle(mesh, mesh.colours.size(), "colours");
   check_flags(mesh);
   if (!mesh.flags.empty() && mesh.has_flag(0, kSameFace))
     throw std::invalid_argument("a mesh's first triangle has kSameFace");
-  if (!mesh.normals.empty() && mesh.normals.size() != mesh.triangles.size())
-    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
-                                std::to_string(mesh.normals.size()) + " normals");
+  if (!mesh.normals.empty()) check_per_triangle(mesh, mesh.normals.size(), "normals");
   if (!is_finite(mesh.origin)) throw std::invalid_argument("a mesh's origin is not finite");
   if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
@@ -29,28 +27,26 @@ void check(const Mesh& mesh) {
 
 }  // namespace
 
-void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options, SimdTarget target,
-                             TriangleState* states, int workers) {
-  scene_ = &scene;
-  options_ = options;
-  states_ = states;
+void SceneMaker::set(const Scene& scene, const FrontendOptions& options, SimdTarget target) {
+  scene_ = &scene, options_ = &options;
+  number_triangles(scene, first_ids_);
+  view_.emplace(scene, options.width, options.height);
+  for (const Instance& instance : scene.instances) check(scene.meshes[instance.mesh]), check(instance);
+  to_light_ = glm::normalize(glm::dvec3(scene.to_light));
   transform_ = transform_kernel(target);
   index_range_ = index_range_kernel(target);
   assemble_ = assemble_kernel(target);
   shade_ = shade_kernel(target);
-  view_.emplace(scene, options.width, options.height);
-  to_light_ = glm::normalize(glm::dvec3(scene.to_light));
+}
+
+void SceneMaker::start_workers(int workers, std::size_t inputs, TriangleState* states) {
+  TriangleMaker::start_workers(workers, inputs, states);
+  stats_.meshes = scene_->instances.size();
   vertex_missing_ = false;
-  first_ids_.reserve(scene.instances.size() + 1);
-  first_ids_.assign(1, 0);
+  sights_.assign(scene_->instances.size(), unknown);
   std::size_t most_vertices = 0;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    check(mesh), check(instance);
-    first_ids_.push_back(first_ids_.back() + mesh.triangles.size());
-    most_vertices = std::max(most_vertices, mesh.positions.size());
-  }
-  sights_.assign(scene.instances.size(), unknown);
+  for (std::size_t i = 0; i < scene_->instances.size(); ++i)
+    most_vertices = std::max(most_vertices, mesh_of(i).positions.size());
   if (workers_.size() < static_cast<std::size_t>(workers))
     workers_ = std::vector<Worker>(static_cast<std::size_t>(workers));
   for (Worker& w : workers_) {
@@ -59,17 +55,27 @@ void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options,
   }
 }
 
+void SceneMaker::append(int worker, std::size_t begin, std::size_t end, ChunkOutput& out) {
+  Worker& w = workers_[static_cast<std::size_t>(worker)];
+  for (std::size_t instance = instance_of(first_ids_, begin); begin < end; ++instance) {
+    const std::size_t first = first_ids_[instance], last = std::min(end, first_ids_[instance + 1]);
+    if (begin == last) continue;
+    if (w.instance != instance) start_instance(w, instance);
+    while (begin < last) begin = first + make_some(w, begin - first, last - first, out);
+  }
+}
+
 void SceneMaker::start_instance(Worker& w, std::size_t instance) {
   const Mesh& mesh = mesh_of(instance);
   const glm::dmat4 model = model_matrix(mesh, scene_->instances[instance]);
   const std::size_t first = first_ids_[instance];
   w.instance = instance;
-  w.task.emplace(MeshTask{.options = options_,
+  w.task.emplace(MeshTask{.options = *options_,
                           .mesh = mesh,
                           .view = view_->volume,
                           .to_screen = {*view_, model},
                           .depth = view_->depth,
-                          .first_id = options_.first_id + static_cast<std::uint32_t>(first),
+                          .first_id = options_->first_id + static_cast<std::uint32_t>(first),
                           .states = states_ != nullptr ? states_ + first : nullptr});
   w.light.emplace(ShadeTask{mesh, cofactor_matrix(model), to_light_, w.task->first_id});
   w.sides.reset();
@@ -128,25 +134,23 @@ void SceneMaker::make_visible(Worker& w, std::size_t begin, std::size_t end, Chu
   }
   const std::size_t first = out.count;
   assemble_(task, begin, end, w.window.corners(task, begin, end, range, transform_), out);
-  if (options_.payload == Payload::id) return;
+  if (options_->payload == Payload::id) return;
   const std::span made(out.triangles + first, out.count - first);
-  if (options_.shade) return shade_(*w.light, made);
+  if (options_->shade) return shade_(*w.light, made);
   for (ScreenTriangle& t : made) {
     const std::uint32_t index = t.payload - task.first_id;
     t.payload = mesh.colours[index];
   }
 }
 
-void SceneMaker::end_frame(FrontendStats& stats) {
-  stats.meshes += scene_->instances.size();
-  stats.triangles += first_ids_.back();
+void SceneMaker::finish() {
   for (std::size_t i = 0; i < sights_.size(); ++i) {
     const Mesh& mesh = mesh_of(i);
     if (mesh.triangles.empty()) {  // no range has it
       start_instance(workers_[0], i);
       find_sight(workers_[0]);
     }
-    stats.meshes_culled += sights_[i] != in_sight;
+    stats_.meshes_culled += sights_[i] != in_sight;
     if (vertex_missing_ && sights_[i] == in_sight) check_vertices(mesh);
   }
 }

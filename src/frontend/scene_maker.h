@@ -2,7 +2,6 @@
 // own triangles name.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -11,38 +10,21 @@
 
 #include "frontend/mesh_clusters.h"
 #include "frontend/shade.h"
-#include "frontend/submission.h"
-#include "frontend/tasks.h"
 #include "frontend/transform.h"
+#include "frontend/triangle_maker.h"
 #include "frontend/vertex_window.h"
 
 namespace edgewise {
 
-class SceneMaker {
+class SceneMaker final : public TriangleMaker {
  public:
-  // `states` holds one per submitted triangle, to be written, or is null. The arguments must outlive the
-  // frame. Throws as Frontend::run() does.
-  void start_frame(const Scene& scene, const FrontendOptions& options, SimdTarget target,
-                   TriangleState* states, int workers);
-  // Appends the visible triangles of the submitted triangles begin … end - 1. Calls ready() before each
-  // chunk of them. Calls with different workers may run at once. Does not throw.
-  template <typename Ready>
-  void make(int worker, std::size_t begin, std::size_t end, ChunkOutput& out, Ready&& ready) {
-    Worker& w = workers_[static_cast<std::size_t>(worker)];
-    for (std::size_t instance = instance_of(first_ids_, begin); begin < end; ++instance) {
-      const std::size_t first = first_ids_[instance], last = std::min(end, first_ids_[instance + 1]);
-      if (begin == last) continue;
-      if (w.instance != instance) start_instance(w, instance);
-      for (std::size_t i = begin - first; i < last - first;) {
-        ready();
-        i = make_some(w, i, last - first, out);
-      }
-      begin = last;
-    }
-  }
-  // Adds the counts that no output has. Throws std::invalid_argument if a triangle in view names a vertex
-  // that its mesh lacks.
-  void end_frame(FrontendStats& stats);
+  // The arguments must outlive the frame. Throws as Frontend::run() does.
+  void set(const Scene& scene, const FrontendOptions& options, SimdTarget target);
+  void start_workers(int workers, std::size_t inputs, TriangleState* states) override;
+  std::size_t size() const override { return first_ids_.back(); }
+  void append(int worker, std::size_t begin, std::size_t end, ChunkOutput& out) override;
+  // Throws std::invalid_argument if a triangle in view names a vertex that its mesh lacks.
+  void finish() override;
 
  private:
   enum Sight : std::uint8_t {
@@ -68,8 +50,6 @@ class SceneMaker {
   Sight find_sight(Worker& w);
 
   const Scene* scene_ = nullptr;
-  FrontendOptions options_;
-  TriangleState* states_ = nullptr;
   std::optional<View> view_;
   glm::dvec3 to_light_;
   TransformKernel transform_ = nullptr;

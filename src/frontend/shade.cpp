@@ -10,7 +10,6 @@
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
@@ -21,56 +20,58 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 // The functions below compute glm's cross(), dot() and matrix product, with glm's order of operations.
-template <class V>
+template <class Real>
 struct Vec3 {
-  V x, y, z;
+  Real x, y, z;
 };
 
-template <class V>
-HWY_INLINE V dot(const Vec3<V>& a, const Vec3<V>& b) {
+template <class Real>
+HWY_INLINE Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-template <class V>
-HWY_INLINE Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
-  const auto minor = [](V p, V q, V r, V s) HWY_ATTR { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); };
+template <class Real>
+HWY_INLINE Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+  const auto minor = [](Real p, Real q, Real r, Real s)
+                         HWY_ATTR { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); };
   return {minor(a.y, b.z, b.y, a.z), minor(a.z, b.x, b.z, a.x), minor(a.x, b.y, b.x, a.y)};
 }
 
 // The normal of a triangle, of any length.
-template <class V>
-HWY_INLINE Vec3<V> across(const Vec3<V>& a, const Vec3<V>& b, const Vec3<V>& c) {
-  const auto minus = [](const Vec3<V>& p, const Vec3<V>& q) HWY_ATTR {
-    return Vec3<V>{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
+template <class Real>
+HWY_INLINE Vec3<Real> across(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Real>& c) {
+  const auto minus = [](const Vec3<Real>& p, const Vec3<Real>& q) HWY_ATTR {
+    return Vec3<Real>{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
   };
   return cross(minus(c, a), minus(b, a));
 }
 
 // The cosine of the angle between a normal in model space and the light; NaN if its length is 0.
-template <class V>
-HWY_INLINE V lambert(const ShadeTask& task, const Vec3<V>& model_normal) {
-  const hn::DFromV<V> d;
+template <class Real>
+HWY_INLINE Real lambert(const ShadeTask& task, const Vec3<Real>& model_normal) {
+  const hn::DFromV<Real> d;
   const auto row = [&](int r) HWY_ATTR {
     const auto& m = task.cofactor;
-    return dot(Vec3<V>{hn::Set(d, m[0][r]), hn::Set(d, m[1][r]), hn::Set(d, m[2][r])}, model_normal);
+    return dot(Vec3<Real>{hn::Set(d, m[0][r]), hn::Set(d, m[1][r]), hn::Set(d, m[2][r])}, model_normal);
   };
-  const Vec3<V> normal{row(0), row(1), row(2)};
-  const Vec3<V> light{hn::Set(d, task.to_light.x), hn::Set(d, task.to_light.y), hn::Set(d, task.to_light.z)};
+  const Vec3<Real> normal{row(0), row(1), row(2)};
+  const Vec3<Real> light{hn::Set(d, task.to_light.x), hn::Set(d, task.to_light.y),
+                         hn::Set(d, task.to_light.z)};
   return hn::Div(dot(normal, light), hn::Sqrt(dot(normal, normal)));
 }
 
-HWY_INLINE VI lit(VI colour, VF cosine) {
+HWY_INLINE V lit(V colour, VF cosine) {
   const DF d;
   const VF ambient = hn::Set(d, 0.15f);
   const VF light =
       hn::IfThenElse(hn::Gt(cosine, ambient), hn::Min(cosine, hn::Set(d, 1.0f)), ambient);  // also for NaN
-  const auto channel = [&](VI c) HWY_ATTR {
-    const VF value = hn::ConvertTo(d, hn::And(c, hn::Set(DI{}, 255)));
-    return hn::ConvertTo(DI{}, hn::Add(hn::Mul(value, light), hn::Set(d, 0.5f)));
+  const auto channel = [&](V c) HWY_ATTR {
+    const VF value = hn::ConvertTo(d, hn::And(c, hn::Set(D{}, 255)));
+    return hn::ConvertTo(D{}, hn::Add(hn::Mul(value, light), hn::Set(d, 0.5f)));
   };
-  const VI red = channel(colour), green = channel(hn::ShiftRight<8>(colour)),
-           blue = channel(hn::ShiftRight<16>(colour));
-  const VI alpha = hn::Set(DI{}, static_cast<std::int32_t>(0xFF000000u));
+  const V red = channel(colour), green = channel(hn::ShiftRight<8>(colour)),
+          blue = channel(hn::ShiftRight<16>(colour));
+  const V alpha = hn::Set(D{}, static_cast<std::int32_t>(0xFF000000u));
   return hn::Or(hn::Or(red, hn::ShiftLeft<8>(green)), hn::Or(hn::ShiftLeft<16>(blue), alpha));
 }
 
@@ -89,74 +90,59 @@ class Padded {
   float padded_[4] = {};
 };
 
-HWY_INLINE VF real(VI v) {
-  return hn::BitCast(DF{}, v);
-}
+using Indices = std::uint32_t[kLanes];  // of triangles of the mesh
 
-// With the faces' normals, of four words each.
-HWY_INLINE VF cosines(const ShadeTask& task, const Padded&, const float* const (&normals)[kLanes]) {
-  const Words n = load_words([&](std::size_t lane) { return normals[lane]; });
+HWY_INLINE VF cosines_of_normals(const ShadeTask& task, const Padded& normals, const Indices& index) {
+  const Words n = load_words([&](int lane) { return normals[index[lane]]; });
   const auto of_normal = [&](auto x, auto y, auto z) HWY_ATTR {
     return lambert(task, Vec3<decltype(x)>{x, y, z});
   };
   return in_double(DF{}, of_normal, real(n.word[0]), real(n.word[1]), real(n.word[2]));
 }
 
-HWY_INLINE VF cosines(const ShadeTask& task, const Padded& positions,
-                      const glm::uvec3* const (&corners)[kLanes]) {
+HWY_INLINE VF cosines_of_triangles(const ShadeTask& task, const Padded& positions, const Indices& index) {
   const auto corner = [&](int k) HWY_ATTR {
-    return load_words([&](std::size_t lane) { return positions[(*corners[lane])[k]]; });
+    return load_words([&](int lane) { return positions[task.mesh.triangles[index[lane]][k]]; });
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
   return in_double(
       DF{},
       [&](auto ax, auto ay, auto az, auto bx, auto by, auto bz, auto cx, auto cy, auto cz) HWY_ATTR {
-        using V = decltype(ax);
-        return lambert(task, across(Vec3<V>{ax, ay, az}, Vec3<V>{bx, by, bz}, Vec3<V>{cx, cy, cz}));
+        using Real3 = Vec3<decltype(ax)>;
+        return lambert(task, across(Real3{ax, ay, az}, Real3{bx, by, bz}, Real3{cx, cy, cz}));
       },
       real(a.word[0]), real(a.word[1]), real(a.word[2]), real(b.word[0]), real(b.word[1]), real(b.word[2]),
       real(c.word[0]), real(c.word[1]), real(c.word[2]));
 }
 
-// -1 for a two-sided triangle seen from behind, else 1.
-float side_seen(const Mesh& mesh, std::uint32_t index, const ScreenTriangle& seen) {
-  return mesh.has_flag(index, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
-}
-
-template <bool kFlagged, bool kNormals>
-void shade_all(const ShadeTask& task, std::span<ScreenTriangle> triangles) {
-  const DI d;
-  const Padded vectors(kNormals ? task.mesh.normals : task.mesh.positions);
-  using Source = std::conditional_t<kNormals, const float*, const glm::uvec3*>;
+void shade(const ShadeTask& task, std::span<ScreenTriangle> triangles) {
+  const D d;
+  const Mesh& mesh = task.mesh;
+  const bool has_normals = !mesh.normals.empty();
+  const Padded vectors(has_normals ? mesh.normals : mesh.positions);
   for (std::size_t i = 0; i < triangles.size(); i += kLanes) {
-    const std::size_t count = std::min(kLanes, triangles.size() - i);
-    Source sources[kLanes];
-    std::uint32_t colours[kLanes];
-    float sides[kLanes];
+    const std::size_t count = std::min<std::size_t>(kLanes, triangles.size() - i);
+    const auto seen = [&](std::size_t lane) -> ScreenTriangle& {
+      return triangles[i + std::min(lane, count - 1)];
+    };
+    std::uint32_t index[kLanes], colours[kLanes];
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
-      const std::uint32_t index = seen.payload - task.first_id;
-      if constexpr (kFlagged) sides[lane] = side_seen(task.mesh, index, seen);
-      if constexpr (kNormals)
-        sources[lane] = vectors[index];
-      else
-        sources[lane] = &task.mesh.triangles[index];
-      colours[lane] = task.mesh.colours[index];
+      index[lane] = seen(lane).payload - task.first_id;
+      colours[lane] = mesh.colours[index[lane]];
     }
-    const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
-    VF cosine = cosines(task, vectors, sources);
-    if constexpr (kFlagged) cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
+    VF cosine =
+        has_normals ? cosines_of_normals(task, vectors, index) : cosines_of_triangles(task, vectors, index);
+    if (!mesh.flags.empty()) {
+      float sides[kLanes];  // -1 for a two-sided triangle seen from behind, else 1
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        sides[lane] =
+            mesh.has_flag(index[lane], kTwoSided) && contract::signed_area(seen(lane)) < 0 ? -1.0f : 1.0f;
+      cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
+    }
+    const V colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
     hn::StoreU(lit(colour, cosine), d, reinterpret_cast<std::int32_t*>(colours));
     for (std::size_t lane = 0; lane < count; ++lane) triangles[i + lane].payload = colours[lane];
   }
-}
-
-void shade(const ShadeTask& task, std::span<ScreenTriangle> triangles) {
-  const bool flagged = !task.mesh.flags.empty();
-  if (task.mesh.normals.empty())
-    flagged ? shade_all<true, false>(task, triangles) : shade_all<false, false>(task, triangles);
-  else
-    flagged ? shade_all<true, true>(task, triangles) : shade_all<false, true>(task, triangles);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,8 +6,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// These need Highway first.
-#include "frontend/cull-inl.h"
+// This needs Highway first.
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
@@ -27,25 +26,6 @@ HWY_INLINE void prefetch(const TriangleStream& stream, std::size_t first) {
   for (std::size_t i = 0; i < kLanes * sizeof(StreamTriangle); i += kCacheLine) hwy::Prefetch(bytes + i);
 }
 
-struct StreamVectors {
-  VF x[3], y[3], z[3];
-  VI colour;
-};
-
-HWY_INLINE StreamVectors load(const StreamTriangle* triangles) {
-  const auto words = [&](std::size_t first) HWY_ATTR {
-    return load_words([&](std::size_t lane) {
-      return reinterpret_cast<const char*>(triangles + lane) + first * sizeof(float);
-    });
-  };
-  const auto real = [](VI v) HWY_ATTR { return hn::BitCast(DF{}, v); };
-  const Words a = words(0), b = words(4), c = words(6);  // reads words 6 and 7 twice: ten in all
-  return {{real(a.word[0]), real(a.word[3]), real(b.word[2])},
-          {real(a.word[1]), real(b.word[0]), real(b.word[3])},
-          {real(a.word[2]), real(b.word[1]), real(c.word[2])},
-          c.word[3]};
-}
-
 // True for lanes whose three values lie in low … high; false for NaN.
 HWY_INLINE hn::Mask<DF> within(const VF (&v)[3], float low, float high) {
   const DF d;
@@ -55,11 +35,11 @@ HWY_INLINE hn::Mask<DF> within(const VF (&v)[3], float low, float high) {
 }
 
 // True for lanes whose three values are all below 0, or all above `side_px`.
-HWY_INLINE MI beyond(const VF (&v)[3], int side_px) {
+HWY_INLINE hn::Mask<D> beyond(const VF (&v)[3], int side_px) {
   const DF d;
   const VF low = hn::Min(v[0], hn::Min(v[1], v[2])), high = hn::Max(v[0], hn::Max(v[1], v[2]));
   return hn::RebindMask(
-      DI{}, hn::Or(hn::Lt(high, hn::Zero(d)), hn::Gt(low, hn::Set(d, static_cast<float>(side_px)))));
+      D{}, hn::Or(hn::Lt(high, hn::Zero(d)), hn::Gt(low, hn::Set(d, static_cast<float>(side_px)))));
 }
 
 // Returns false and appends nothing if add_one() must handle these triangles.
@@ -68,16 +48,20 @@ HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, ChunkOu
   constexpr auto kGuardPx = static_cast<float>(contract::kMaxImageSide);
   const FrontendOptions& options = task.options;
   prefetch(task.stream, first);
-  const StreamVectors t = load(&task.stream.triangles[first]);
-  const auto plain = hn::And(within(t.z, 0.0f, 1.0f),
-                             hn::And(within(t.x, -kGuardPx, kGuardPx), within(t.y, -kGuardPx, kGuardPx)));
+  // Ten words like a screen triangle's, but vertex by vertex: t.x is the first one.
+  static_assert(sizeof(StreamTriangle) == sizeof(ScreenTriangle));
+  const TriangleLanes t = load_triangles([&](int lane) { return &task.stream.triangles[first] + lane; });
+  const VF x[] = {real(t.x[0]), real(t.y[0]), real(t.z[0])}, y[] = {real(t.x[1]), real(t.y[1]), real(t.z[1])},
+           z[] = {real(t.x[2]), real(t.y[2]), real(t.z[2])};
+  const auto plain =
+      hn::And(within(z, 0.0f, 1.0f), hn::And(within(x, -kGuardPx, kGuardPx), within(y, -kGuardPx, kGuardPx)));
   if (!hn::AllTrue(DF{}, plain)) return false;
   const bool ids = options.payload == Payload::id;
-  cull_and_append({{snap(t.x[0]), snap(t.x[1]), snap(t.x[2])},
-                   {snap(t.y[0]), snap(t.y[1]), snap(t.y[2])},
-                   {quantize_depth(t.z[0]), quantize_depth(t.z[1]), quantize_depth(t.z[2])},
-                   ids ? counting_from(options.first_id + first) : t.colour},
-                  hn::Or(beyond(t.x, options.width), beyond(t.y, options.height)), options.cull, out);
+  cull_and_append({{snap(x[0]), snap(x[1]), snap(x[2])},
+                   {snap(y[0]), snap(y[1]), snap(y[2])},
+                   {quantize_depth(z[0]), quantize_depth(z[1]), quantize_depth(z[2])},
+                   ids ? counting_from(static_cast<int>(options.first_id + first)) : t.payload},
+                  hn::Or(beyond(x, options.width), beyond(y, options.height)), options.cull, out);
   return true;
 }
 

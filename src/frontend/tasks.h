@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/buffer.h"
@@ -56,6 +57,15 @@ struct TriangleBuffers {
     screen.reserve(count);
     if (with_unsnapped) unsnapped.reserve(screen.capacity());
   }
+  // Makes room for `count` records, and keeps the first `used`.
+  void grow(std::size_t used, std::size_t count, bool with_unsnapped) {
+    if (count <= screen.capacity()) return;
+    TriangleBuffers larger;
+    larger.reserve(std::max(count, 2 * screen.capacity()), with_unsnapped);
+    std::copy_n(screen.data(), used, larger.screen.data());
+    if (with_unsnapped) std::copy_n(unsnapped.data(), used, larger.unsnapped.data());
+    *this = std::move(larger);
+  }
 
   Buffer<ScreenTriangle> screen;
   Buffer<UnsnappedTriangle> unsnapped;  // with keep_unsnapped only
@@ -65,25 +75,22 @@ struct TriangleBuffers {
 // For Payload::colour, colours then replace the ids. The alignment keeps two workers' outputs out of the same
 // pair of cache lines, which processors fetch together.
 struct alignas(128) ChunkOutput {
-  // A triangle clipped by six planes has at most nine vertices, so it becomes at most seven triangles. The
-  // last vector is stored whole.
-  static constexpr std::size_t kChunkRoom = kChunkTriangles * 7 + 16;
+  // For the screen triangles of so many inputs. A triangle clipped by six planes has at most nine vertices,
+  // so it becomes at most seven triangles. The last vector is stored whole.
+  static constexpr std::size_t room_for(std::size_t inputs) { return inputs * 7 + 16; }
 
   // Empties the output, and continues in `buffers` from record `at` on.
   void write_to(TriangleBuffers& buffers, std::size_t at) {
     triangles = buffers.screen.data() + at;
     const bool has_unsnapped = buffers.unsnapped.capacity() >= buffers.screen.capacity();
     unsnapped = has_unsnapped ? buffers.unsnapped.data() + at : nullptr;
-    capacity = buffers.screen.capacity() - at;
     count = 0;
   }
-  // True if the output of any kChunkTriangles triangles fits.
-  bool has_room() const { return count + kChunkRoom <= capacity; }
 
   ScreenTriangle* triangles = nullptr;
   UnsnappedTriangle* unsnapped = nullptr;                       // with keep_unsnapped only
   std::vector<std::array<SourceVertex, 3>>* sources = nullptr;  // unless null, add_one() appends to it
-  std::size_t capacity = 0, count = 0;
+  std::size_t count = 0;
   // The sum over all that its worker made into it in the frame. Aligned, because streams are made faster so
   // (frontend/medium on one thread of a Zen 3).
   alignas(64) FrontendStats stats;

@@ -35,10 +35,10 @@ HWY_INLINE Offsets from_origin(const ScreenTransform& to_screen, const float* po
           hn::Sub(z, hn::Set(d, to_screen.origin.z))};
 }
 
-template <class V>
-HWY_INLINE V row_of_doubles(const glm::dvec4& r, V x, V y, V z) {
-  const hn::DFromV<V> d;
-  const V xy = hn::Add(hn::Mul(hn::Set(d, r.x), x), hn::Mul(hn::Set(d, r.y), y));
+template <class Doubles>
+HWY_INLINE Doubles row_of_doubles(const glm::dvec4& r, Doubles x, Doubles y, Doubles z) {
+  const hn::DFromV<Doubles> d;
+  const Doubles xy = hn::Add(hn::Mul(hn::Set(d, r.x), x), hn::Mul(hn::Set(d, r.y), y));
   return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, r.z), z)), hn::Set(d, r.w));
 }
 
@@ -67,7 +67,7 @@ HWY_INLINE ClipVectors transform(const ScreenTransform& to_screen, const Offsets
 }
 
 // z / w in contract units.
-HWY_INLINE VI quotient_depth(const ScreenTransform& to_screen, const Offsets& p) {
+HWY_INLINE V quotient_depth(const ScreenTransform& to_screen, const Offsets& p) {
   const auto units = [&](auto x, auto y, auto z) HWY_ATTR {
     const hn::DFromV<decltype(x)> d;
     const auto range = hn::Set(d, double{contract::kDepthRange});
@@ -81,10 +81,10 @@ HWY_INLINE VI quotient_depth(const ScreenTransform& to_screen, const Offsets& p)
 // outside_of() of clip.h, for float coordinates. 16384 w is exact, and if it overflows, the infinity compares
 // correctly.
 template <bool kHasZ>
-HWY_INLINE VI outside_of(const ClipVectors& v, const ViewVolume& view) {
+HWY_INLINE V outside_of(const ClipVectors& v, const ViewVolume& view) {
   const DF df;
-  const DI di;
-  VI sides = hn::Zero(di);
+  const D di;
+  V sides = hn::Zero(di);
   const auto add_side = [&](auto beyond, Outside side) HWY_ATTR {
     sides = hn::Or(sides, hn::IfThenElseZero(hn::RebindMask(di, beyond), hn::Set(di, side)));
   };
@@ -109,19 +109,19 @@ HWY_INLINE VI outside_of(const ClipVectors& v, const ViewVolume& view) {
 
 // Transforms a whole vector of vertices. Returns the sides that each lies beyond; all bits if not finite.
 template <bool kHasZ>
-HWY_INLINE VI transform_vector(const MeshTask& task, const float* positions, Vertex* out) {
+HWY_INLINE V transform_vector(const MeshTask& task, const float* positions, Vertex* out) {
   const DF df;
-  const DI di;
+  const D di;
   const Offsets p = from_origin(task.to_screen, positions);
   const ClipVectors v = transform<kHasZ>(task.to_screen, p);
-  VI outside = outside_of<kHasZ>(v, task.view);
+  V outside = outside_of<kHasZ>(v, task.view);
   const VF inverse_w = hn::Div(hn::Set(df, 1.0f), v.w);
   // Not where near_z is subnormal.
   const auto projectable = hn::IsFinite(inverse_w);
   const auto inside = hn::Eq(hn::And(outside, hn::Set(di, kMustClip | kNotFinite)), hn::Zero(di));
   const auto needs_clipper = hn::AndNot(hn::RebindMask(di, projectable), inside);
   outside = hn::Or(outside, hn::IfThenElseZero(needs_clipper, hn::Set(di, kNear)));
-  const VI depth = kHasZ ? quotient_depth(task.to_screen, p) : view_depth(task.depth, v.w);
+  const V depth = kHasZ ? quotient_depth(task.to_screen, p) : view_depth(task.depth, v.w);
   hn::StoreInterleaved4(snap(hn::Mul(v.x, inverse_w)), snap(hn::Mul(v.y, inverse_w)), depth, outside, di,
                         reinterpret_cast<std::int32_t*>(out));
   return hn::IfThenElse(hn::Eq(outside, hn::Set(di, kNotFinite)), hn::Set(di, -1), outside);
@@ -130,8 +130,8 @@ HWY_INLINE VI transform_vector(const MeshTask& task, const float* positions, Ver
 template <bool kHasZ>
 std::uint32_t transform_all(const MeshTask& task, const glm::vec3* positions, std::size_t count,
                             Vertex* out) {
-  const DI d;
-  VI common = hn::Set(d, -1);
+  const D d;
+  V common = hn::Set(d, -1);
   std::size_t i = 0;
   for (; i + kLanes <= count; i += kLanes)
     common = hn::And(common, transform_vector<kHasZ>(task, &positions[i].x, out + i));

@@ -21,8 +21,7 @@
 #include "edgewise/tri_file.h"
 #include "edgewise/visible.h"
 #include "files/atomic_file.h"
-#include "frontend/scene_edits.h"
-#include "frontend/submission.h"
+#include "frontend/checked_edits.h"
 #include "python/drawn.h"
 #include "raster/checks.h"
 

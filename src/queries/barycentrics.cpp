@@ -19,9 +19,9 @@
 #include "edgewise/contract.h"
 #include "edgewise/visible.h"
 #include "frontend/fixed.h"
-#include "frontend/submission.h"
 #include "frontend/tasks.h"
 #include "frontend/transform.h"
+#include "frontend/triangle_ids.h"
 #include "queries/checks.h"
 
 namespace edgewise {

@@ -13,7 +13,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 #include "frontend/fixed.h"
-#include "frontend/submission.h"
+#include "frontend/triangle_ids.h"
 #include "frontend/view.h"
 #include "queries/checks.h"
 
@@ -80,9 +80,8 @@ std::vector<std::uint32_t> pixels_per_triangle(const ConstFrameView& ids, std::s
 }
 
 std::vector<std::size_t> first_ids(const Scene& scene) {
-  std::vector<std::size_t> first{0};
-  for (const Instance& instance : scene.instances)
-    first.push_back(first.back() + mesh_of(scene, instance).triangles.size());
+  std::vector<std::size_t> first;
+  number_triangles(scene, first);
   return first;
 }
 

@@ -46,15 +46,15 @@ Scene scene_of_quads(bool two_sided) {
   return scene;
 }
 
-constexpr FrontendOptions kOptions{.width = 320, .height = 200};
+FrontendOptions with(Cull cull, Payload payload = Payload::colour) {
+  return {.width = 320, .height = 200, .cull = cull, .payload = payload};
+}
 
 TEST(Faces, AreTheSameOnEveryTargetAndThreadCount) {
   const Scene scene = scene_of_quads(true);
   for (const Cull cull : cull_modes())
     for (const Payload payload : {Payload::colour, Payload::id}) {
-      FrontendOptions options = kOptions;
-      options.cull = cull;
-      options.payload = payload;
+      FrontendOptions options = with(cull, payload);
       options.keep_unsnapped = true;
       auto expected = run(scene, options).triangles;
       std::erase_if(expected, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
@@ -74,9 +74,7 @@ TEST(Faces, HaveThePositionsOfTheirTriangles) {
   Scene plain = scene;
   plain.meshes[0].flags.clear();
   for (const Cull cull : cull_modes()) {
-    FrontendOptions options = kOptions;
-    options.cull = cull;
-    const auto quads = run(scene, options), halves = run(plain, options);
+    const auto quads = run(scene, with(cull)), halves = run(plain, with(cull));
     ASSERT_EQ(quads.triangles.size(), halves.triangles.size());
     for (std::size_t i = 0; i < quads.triangles.size(); ++i)
       ASSERT_EQ(std::memcmp(&quads.triangles[i], &halves.triangles[i], offsetof(ScreenTriangle, payload)), 0);
@@ -87,12 +85,8 @@ TEST(Faces, HaveThePositionsOfTheirTriangles) {
 TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
   const Scene scene = scene_of_quads(false);
   const Mesh& mesh = scene.meshes[0];
-  FrontendOptions options = kOptions;
-  options.cull = Cull::none;
-  options.payload = Payload::id;
-  const auto ids = run(scene, options).triangles;
-  options.payload = Payload::colour;
-  const auto colours = run(scene, options).triangles;
+  const auto ids = run(scene, with(Cull::none, Payload::id)).triangles,
+             colours = run(scene, with(Cull::none)).triangles;
   ASSERT_EQ(ids.size(), colours.size());
   const auto lit = lit_colours(scene);
   std::size_t second_halves = 0;
@@ -160,18 +154,14 @@ TEST(Faces, WithTwoSidesAreNeverCulled) {
   const auto is_two_sided = [&](const ScreenTriangle& t) {
     return mesh.has_flag(t.payload % mesh.triangles.size(), kTwoSided);
   };
-  FrontendOptions options = kOptions;
-  options.payload = Payload::id;
-  options.cull = Cull::none;
-  const auto all = run(scene, options).triangles;
+  const auto all = run(scene, with(Cull::none, Payload::id)).triangles;
   for (const Cull cull : {Cull::back, Cull::front, Cull::both}) {
     auto expected = all;
     std::erase_if(expected, [&](const ScreenTriangle& t) {
       const bool front = contract::signed_area(t) > 0;
       return !is_two_sided(t) && (cull == Cull::both || (cull == Cull::front) == front);
     });
-    options.cull = cull;
-    const auto found = run(scene, options);
+    const auto found = run(scene, with(cull, Payload::id));
     expect_same_triangles(found.triangles, expected, std::string(name_of(cull)));
     EXPECT_EQ(found.stats.culled, all.size() - expected.size());
   }
@@ -190,9 +180,7 @@ Scene scene_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
 
 std::uint32_t colour_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
   const Scene scene = scene_of_square(two_sided, turned, to_light);
-  FrontendOptions options = kOptions;
-  options.cull = Cull::none;
-  const auto triangles = run(scene, options).triangles;
+  const auto triangles = run(scene, with(Cull::none)).triangles;
   EXPECT_EQ(triangles.size(), 2u);
   EXPECT_EQ(triangles.front().payload, triangles.back().payload);
   EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, triangles.front().payload));
@@ -216,9 +204,7 @@ TEST(Faces, WithTwoSidesAreLitOnTheSideThatMatricesShow) {
       for (const glm::vec3 to_light : {glm::vec3(0, 0, 1), {0, 0, -1}}) {
         Scene scene = scene_of_square(true, false, to_light);
         scene.matrices = CameraMatrices{glm::dmat4(1.0), projection};
-        FrontendOptions options = kOptions;
-        options.cull = Cull::none;
-        const auto triangles = run(scene, options).triangles;
+        const auto triangles = run(scene, with(Cull::none)).triangles;
         ASSERT_EQ(triangles.size(), 2u);
         EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, triangles.front().payload));
       }
@@ -227,13 +213,13 @@ TEST(Faces, WithTwoSidesAreLitOnTheSideThatMatricesShow) {
 TEST(Faces, AreRefusedIfTheirFlagsOrNormalsAreInvalid) {
   Scene scene = scene_of_quads(false);
   scene.meshes[0].flags.pop_back();
-  EXPECT_NE(message_of([&] { run(scene, kOptions); }), "");
+  EXPECT_NE(message_of([&] { run(scene, with(Cull::back)); }), "");
   scene = scene_of_quads(false);
   scene.meshes[0].flags[0] = kSameFace;
-  EXPECT_EQ(message_of([&] { run(scene, kOptions); }), "a mesh's first triangle has kSameFace");
+  EXPECT_EQ(message_of([&] { run(scene, with(Cull::back)); }), "a mesh's first triangle has kSameFace");
   scene = scene_of_quads(false);
   scene.meshes[0].normals.pop_back();
-  EXPECT_EQ(message_of([&] { run(scene, kOptions); }), "a mesh has 6600 triangles and 6599 normals");
+  EXPECT_EQ(message_of([&] { run(scene, with(Cull::back)); }), "a mesh has 6600 triangles and 6599 normals");
 }
 
 }  // namespace

@@ -58,32 +58,21 @@ void expect_consistent(const FrontendStats& s) {
 }
 
 TEST(Snap, RoundsHalfToEvenAndClampsToTheGuardBand) {
-  EXPECT_EQ(snap(0.5f / 256), 0);
-  EXPECT_EQ(snap(1.5f / 256), 2);
-  EXPECT_EQ(snap(2.5f / 256), 2);
-  EXPECT_EQ(snap(-0.5f / 256), 0);
-  EXPECT_EQ(snap(-1.5f / 256), -2);
-  EXPECT_EQ(snap(100.25f), 25664);
-  EXPECT_EQ(snap(16384.0f), contract::kGuardSub);
-  EXPECT_EQ(snap(1e30f), contract::kGuardSub);
-  EXPECT_EQ(snap(-1e30f), -contract::kGuardSub);
-}
-
-TEST(Snap, AgreesWithTheStandardLibraryEverywhere) {
+  const auto expected = [](float px) {
+    return static_cast<std::int32_t>(std::nearbyint(std::clamp(double{px}, -16384.0, 16384.0) * 256.0));
+  };
+  for (const float px : {0.5f / 256, 1.5f / 256, 2.5f / 256, -0.5f / 256, -1.5f / 256, 1e30f, -1e30f})
+    EXPECT_EQ(snap(px), expected(px));
   Random random(1);
   for (int i = 0; i < 1'000'000; ++i) {
-    const float px = random.uniform(-16384.0f, 16384.0f);
-    ASSERT_EQ(snap(px), static_cast<std::int32_t>(std::nearbyint(static_cast<double>(px) * 256.0))) << px;
+    const float px = random.uniform(-16400.0f, 16400.0f);
+    ASSERT_EQ(snap(px), expected(px)) << px;
   }
 }
 
-TEST(QuantizeDepth, SpansTheContractsRange) {
-  EXPECT_EQ(quantize_depth(0.0f), contract::kDepthHead);
-  EXPECT_EQ(quantize_depth(1.0f), contract::kDepthHead + contract::kDepthRange);
-  EXPECT_EQ(quantize_depth(-3.0f), quantize_depth(0.0f));
-  EXPECT_EQ(quantize_depth(7.0f), quantize_depth(1.0f));
-  EXPECT_EQ(quantize_depth(0.5f),
-            contract::kDepthHead + static_cast<std::uint32_t>(std::nearbyint(contract::kDepthRange * 0.5)));
+TEST(QuantizeDepth, ClampsToTheContractsRange) {
+  EXPECT_EQ(quantize_depth(-3.0f), contract::kDepthHead);
+  EXPECT_EQ(quantize_depth(7.0f), contract::kDepthHead + contract::kDepthRange);
 }
 
 TEST(Frontend, DropsNanAndInfiniteVerticesAndCountsThem) {
@@ -111,30 +100,6 @@ TEST(Frontend, ClipsAtTheNearPlaneBeforeProjection) {
     for (int i = 0; i < 3; ++i) EXPECT_GE(t.y_sub[i], 50 * 256) << "the floor stays below the horizon";
   expect_consistent(result.stats);
   EXPECT_EQ(run(loose({{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}})).stats.emitted, 0u) << "wholly behind";
-}
-
-TEST(Frontend, EveryTriangleStaysWithinTheContract) {
-  Random random(5);
-  std::vector<glm::vec3> positions;
-  for (int i = 0; i < 30'000; ++i) {
-    const float reach = std::pow(10.0f, random.uniform(-3.0f, 6.0f));
-    positions.emplace_back(random.uniform(-reach, reach), random.uniform(-reach, reach),
-                           random.uniform(-reach, reach));
-  }
-  Scene scene = loose(positions);
-  scene.camera.near_z = 1e-4f;
-  scene.camera.far_z = 1e7f;
-  const auto result = run(scene);
-  expect_consistent(result.stats);
-  EXPECT_GT(result.stats.clipped_guard, 0u);
-  EXPECT_GT(result.stats.clipped_near, 0u);
-  for (const auto& t : result.triangles)
-    for (int i = 0; i < 3; ++i) {
-      ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
-      ASSERT_LE(std::abs(t.y_sub[i]), contract::kGuardSub);
-      ASSERT_GE(t.z[i], contract::kDepthHead);
-      ASSERT_LE(t.z[i], contract::kDepthHead + contract::kDepthRange);
-    }
 }
 
 // Corners within a sub-unit of the guard band: clipping and snapping make the polygons slightly concave, so
@@ -192,23 +157,16 @@ TEST(Frontend, NeighboursGetTheSameVertexOnAClippedEdge) {
   EXPECT_GT(cuts, 1000);
 }
 
-TEST(Frontend, DropsWholeMeshesOutsideTheView) {
-  Scene scene = loose(kFront);
-  scene.instances.push_back({.translation = {100, 0, 0}});
-  scene.instances.push_back({.translation = {0, 0, 50}});
-  const auto result = run(scene);
-  EXPECT_EQ(result.stats.meshes, 3u);
-  EXPECT_EQ(result.stats.meshes_culled, 2u);
-  EXPECT_EQ(result.stats.whole_mesh, 2u);
-  EXPECT_EQ(result.stats.emitted, 1u);
-}
-
 TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
   Scene scene = loose(kFront);
   scene.instances.push_back({.translation = {100, 0, 0}});   // id 1, not visible
   scene.instances.push_back({.translation = {0.5f, 0, 0}});  // id 2
+  scene.instances.push_back({.translation = {0, 0, 50}});
   FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id};
   const auto result = run(scene, options);
+  EXPECT_EQ(result.stats.meshes, 4u);
+  EXPECT_EQ(result.stats.meshes_culled, 2u);
+  EXPECT_EQ(result.stats.whole_mesh, 2u);
   ASSERT_EQ(result.triangles.size(), 2u);
   EXPECT_EQ(result.triangles[0].payload, 0u);
   EXPECT_EQ(result.triangles[1].payload, 2u);
@@ -274,20 +232,15 @@ TEST(Frontend, ShadesByTheLightWithAMinimum) {
   EXPECT_EQ(red({0, 0, 1}), 200u) << "light from the camera's side";
   EXPECT_EQ(red({0, 0, -1}), 30u) << "max(n.l, 0.15)";
   EXPECT_EQ(red({0, 3, 4}), 160u) << "n.l = 0.8 for every length";
-  FrontendOptions flat{.width = 100, .height = 100, .cull = Cull::none, .shade = false};
-  EXPECT_EQ(run(scene, flat).triangles.at(0).payload, rgb(200, 100, 50));
-}
-
-TEST(Frontend, ShadesMeshesOfEverySizeTheSame) {
-  for (const float size : {1e-12f, 1e-6f, 1.0f, 1e6f, 1e12f}) {
+  for (const float size : {1e-12f, 1e-6f, 1e6f, 1e12f}) {
     auto positions = kFront;
     for (auto& p : positions) p *= size;
-    Scene scene = loose(positions);
-    scene.to_light = {0, 3, 4};
-    scene.camera.near_z = 0.1f * size;
-    scene.camera.far_z = 100.0f * size;
-    EXPECT_EQ(run(scene).triangles.at(0).payload & 255, 160u) << size;
+    Scene scaled = loose(positions);
+    scaled.to_light = {0, 3, 4}, scaled.camera.near_z = 0.1f * size, scaled.camera.far_z = 100.0f * size;
+    EXPECT_EQ(run(scaled).triangles.at(0).payload & 255, 160u) << size;
   }
+  FrontendOptions flat{.width = 100, .height = 100, .cull = Cull::none, .shade = false};
+  EXPECT_EQ(run(scene, flat).triangles.at(0).payload, rgb(200, 100, 50));
 }
 
 TEST(Frontend, DrawsATriangleNearTheLargestFloats) {
@@ -373,6 +326,13 @@ std::int64_t area(const Vertex& a, const Vertex& b, const Vertex& c) {
          std::int64_t{b.y_sub - a.y_sub} * (c.x_sub - a.x_sub);
 }
 
+// Of a polygon; a fan has the same sum, whatever the signs of its triangles.
+std::int64_t area(const Polygon& polygon) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) sum += area(polygon[0], polygon[i - 1], polygon[i]);
+  return sum;
+}
+
 struct Areas {
   std::int64_t sum = 0;
   bool positive = false, negative = false;
@@ -406,16 +366,10 @@ TEST(Pieces, PiecesOfAConcavePolygonKeepItsWinding) {
     const Polygon backward(forward.rbegin(), forward.rend());
     for (Polygon polygon : {forward, backward})
       for (std::size_t turn = 0; turn < polygon.size(); ++turn) {
-        const Areas fan = areas(polygon, [&] {
-          Pieces pieces;
-          for (std::uint8_t i = 2; i < polygon.size(); ++i)
-            pieces.corners[pieces.count++] = {0, std::uint8_t(i - 1), i};
-          return pieces;
-        }());
         const Pieces pieces = split(polygon);
         EXPECT_EQ(pieces.count, polygon.size() - 2);
         const Areas found = areas(polygon, pieces);
-        EXPECT_EQ(found.sum, fan.sum);
+        EXPECT_EQ(found.sum, area(polygon));
         EXPECT_FALSE(found.positive && found.negative) << "turn " << turn;
         std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
       }
@@ -426,7 +380,7 @@ TEST(Pieces, ASelfCrossingPolygonKeepsItsArea) {
   const Polygon bow = polygon_of({{0, 0}, {100, 10}, {100, 0}, {0, 9}});
   const Pieces pieces = split(bow);
   ASSERT_EQ(pieces.count, 2u);
-  EXPECT_EQ(areas(bow, pieces).sum, area(bow[0], bow[1], bow[2]) + area(bow[0], bow[2], bow[3]));
+  EXPECT_EQ(areas(bow, pieces).sum, area(bow));
 }
 
 }  // namespace

@@ -260,49 +260,44 @@ TEST(Matrices, KeepTheirPrecisionFarFromTheOrigin) {
   }
 }
 
-// A rectangle 4 before the camera. The visible points are to the right of x = -0.4, where z = 0.
-TEST(Matrices, AnObliqueNearPlaneCutsWhereZIsZero) {
-  Scene scene;
-  scene.meshes.push_back(
-      {{{-3, -3, -4}, {-3, 3, -4}, {3, 3, -4}, {3, -3, -4}}, {{0, 1, 2}, {0, 2, 3}}, {1, 2}});
-  scene.instances.emplace_back();
-  CameraMatrices matrices{glm::dmat4(1.0), glm::perspectiveRH_ZO(std::acos(0.0), 2.0, 1.0, 9.0)};
-  glm::dmat4& p = matrices.projection;
-  p[0].z = 0.5, p[1].z = 0.0, p[2].z = -0.1, p[3].z = -0.2;  // z = 0.5 x + 0.1 distance - 0.2
-  scene.matrices = matrices;
-  const auto shown = run(scene, {.width = 200, .height = 100, .cull = Cull::back});
-  EXPECT_EQ(shown.stats.clipped_near, 2u);
-  std::int32_t least = 1 << 30, most = 0;
-  for (const ScreenTriangle& t : shown.triangles)
-    for (int k = 0; k < 3; ++k) {
-      least = std::min(least, t.x_sub[k]), most = std::max(most, t.x_sub[k]);
-      const double x = (t.x_sub[k] / 256.0 - 100) / 50 * 4;  // in the rectangle
-      EXPECT_NEAR(contract::depth01(t.z[k]), (0.5 * x + 0.2) / 4, 1e-6);
-    }
-  EXPECT_EQ(least, 95 * 256);
-  EXPECT_NEAR(most, 137.5 * 256, 1);
-}
-
-// Its distance changes with x: from 0 at the left to 10 at the right.
-TEST(Matrices, AParallelProjectionClipsAtItsNearAndFarPlanes) {
-  Scene scene;
-  scene.meshes.push_back({{{-1.25f, -0.5f, 0}, {-1.25f, 0.5f, 0}, {1.25f, 0.5f, -10}, {1.25f, -0.5f, -10}},
-                          {{0, 1, 2}, {0, 2, 3}},
-                          {1, 2}});
-  scene.instances.emplace_back();
-  scene.matrices = CameraMatrices{glm::dmat4(1.0), orthographic_projection(-2, 2, -1, 1, 1, 9)};
-  const auto shown = run(scene, {.width = 200, .height = 100, .cull = Cull::back});
-  EXPECT_EQ(shown.stats.clipped_near, 2u);
-  EXPECT_EQ(shown.stats.clipped_far, 2u);
-  std::vector<std::int32_t> columns;
-  for (const ScreenTriangle& t : shown.triangles)
-    for (int k = 0; k < 3; ++k) {
-      columns.push_back(t.x_sub[k]);
-      EXPECT_NEAR(contract::depth01(t.z[k]), (t.x_sub[k] / 256.0 - 50) / 100, 1e-6);
-    }
-  ASSERT_FALSE(columns.empty());
-  EXPECT_EQ(std::ranges::min(columns), 50 * 256);
-  EXPECT_EQ(std::ranges::max(columns), 150 * 256);
+// Rectangles of two triangles. One is 4 before the camera, and visible to the right of x = -0.4, where z = 0.
+// The other's distance changes with x: from 0 at the left to 10 at the right.
+TEST(Matrices, PlanesClipWhereZIsZeroOrW) {
+  glm::dmat4 oblique = glm::perspectiveRH_ZO(std::acos(0.0), 2.0, 1.0, 9.0);
+  // z = 0.5 x + 0.1 distance - 0.2
+  oblique[0].z = 0.5, oblique[1].z = 0.0, oblique[2].z = -0.1, oblique[3].z = -0.2;
+  const struct {
+    std::vector<glm::vec3> corners;
+    glm::dmat4 projection;
+    std::uint64_t clipped_near, clipped_far;
+    double least_px, most_px, depth_at_100_px, depth_per_px;
+  } cases[] = {{{{-3, -3, -4}, {-3, 3, -4}, {3, 3, -4}, {3, -3, -4}}, oblique, 2, 0, 95, 137.5, 0.05, 0.01},
+               {{{-1.25f, -0.5f, 0}, {-1.25f, 0.5f, 0}, {1.25f, 0.5f, -10}, {1.25f, -0.5f, -10}},
+                orthographic_projection(-2, 2, -1, 1, 1, 9),
+                2,
+                2,
+                50,
+                150,
+                0.5,
+                0.01}};
+  for (const auto& c : cases) {
+    Scene scene;
+    scene.meshes.push_back({c.corners, {{0, 1, 2}, {0, 2, 3}}, {1, 2}});
+    scene.instances.emplace_back();
+    scene.matrices = CameraMatrices{glm::dmat4(1.0), c.projection};
+    const auto shown = run(scene, {.width = 200, .height = 100, .cull = Cull::back});
+    EXPECT_EQ(shown.stats.clipped_near, c.clipped_near);
+    EXPECT_EQ(shown.stats.clipped_far, c.clipped_far);
+    double least = 1e9, most = 0;
+    for (const ScreenTriangle& t : shown.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const double px = t.x_sub[k] / 256.0;
+        least = std::min(least, px), most = std::max(most, px);
+        EXPECT_NEAR(contract::depth01(t.z[k]), c.depth_at_100_px + (px - 100) * c.depth_per_px, 1e-6);
+      }
+    EXPECT_EQ(least, c.least_px);
+    EXPECT_NEAR(most, c.most_px, 1 / 256.0);
+  }
 }
 
 TEST(Matrices, WithoutAFarPlaneShowEveryDistance) {

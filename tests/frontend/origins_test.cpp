@@ -9,7 +9,7 @@
 #include "edgewise/draw.h"
 #include "edgewise/hash.h"
 #include "edgewise/obj_file.h"
-#include "frontend/scene_edits.h"
+#include "frontend/checked_edits.h"
 #include "message_of.h"
 #include "scene/origin.h"
 #include "temp_dir.h"

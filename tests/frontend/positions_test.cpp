@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/glm.hpp>
 #include <variant>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
+#include "support.h"
 
 namespace edgewise {
 namespace {
@@ -180,8 +180,7 @@ TEST(Positions, MovingCameraAndInstancesChangesNoBit) {
     const FrontendOptions options{.width = 320, .height = 180};
     const auto a = here.run(scene, options), b = there.run(moved, options);
     EXPECT_EQ(here.stats(), there.stats()) << info.name;
-    ASSERT_EQ(a.size(), b.size()) << info.name;
-    EXPECT_EQ(std::memcmp(&*a.begin(), &*b.begin(), a.size() * sizeof(ScreenTriangle)), 0) << info.name;
+    testing::expect_same_triangles(a, b, std::string(info.name));
   }
 }
 

@@ -1,16 +1,10 @@
 // Threads make ranges of a scene's triangles, each with vertices of its own.
-#include "frontend/scene_maker.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <numeric>
-#include <thread>
 
 #include "core/random.h"
 #include "edgewise/frontend.h"
-#include "frontend/in_order.h"
 #include "support.h"
 
 namespace edgewise {
@@ -73,25 +67,20 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
   }
 }
 
-// Each triangle becomes five, so that a worker's buffer is full before its range ends, and the frame's within
-// a range; also if an earlier frame had longer ranges.
-TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
-  constexpr std::size_t kCount = 131'072, kPieces = 5;
-  static_assert(kCount / 32 == 2 * kChunkTriangles);  // the ranges of two threads
-  Scene longer, scene;
-  longer.instances.resize(1), scene.instances.resize(1);
-  longer.meshes.push_back({{{0, 0, 5}}, std::vector<glm::uvec3>(8 * kCount), {}});
-  longer.meshes[0].colours.resize(8 * kCount);
+// Each triangle becomes five, so that the output grows within a frame. The second frame has room.
+TEST(FrontendOrder, HoldsWhenTheOutputGrows) {
+  constexpr std::size_t kCount = 70'001, kPieces = 5;
+  Scene scene;
+  scene.instances.resize(1);
   scene.meshes.push_back({{{-368, 1374, -5}, {-1006, -1006, -5}, {1374, -368, -5}},
                           std::vector<glm::uvec3>(kCount, {0, 1, 2}),
                           std::vector<std::uint32_t>(kCount)});
-  for (const int threads : {1, 2})
-    for (const bool keep : {false, true})
-      for (const bool after_longer : {false, true}) {
-        Frontend frontend;
-        FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id};
-        ASSERT_TRUE(!after_longer || frontend.run(longer, options, {.threads = threads}).empty());
-        options.keep_unsnapped = keep;
+  for (const int threads : {1, 2, 5})
+    for (const bool keep : {false, true}) {
+      Frontend frontend;
+      const FrontendOptions options{
+          .width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .keep_unsnapped = keep};
+      for (int frame = 0; frame < 2; ++frame) {
         const auto found = frontend.run(scene, options, {.threads = threads});
         ASSERT_EQ(found.size(), kPieces * kCount);
         for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / kPieces);
@@ -99,31 +88,7 @@ TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
         for (std::size_t i = kPieces; i < frontend.unsnapped().size(); ++i)
           ASSERT_EQ(frontend.unsnapped()[i].x_px[1], frontend.unsnapped()[i % kPieces].x_px[1]);
       }
-}
-
-// Workers that finish later ranges first have to wait with all their buffers full. One that has half of its
-// range when the earlier ones are finished makes the rest in its place.
-TEST(FrontendOrder, IsThatOfTheRangesWhateverTheirDuration) {
-  constexpr std::size_t kRanges = 60;
-  for (const int workers : {1, 2, 8}) {
-    InOrder order;
-    order.start_frame(workers, 100, false);
-    TriangleBuffers placed;
-    placed.reserve(kRanges * 100 + ChunkOutput::kChunkRoom, false);
-    order.for_each_range(
-        kRanges, workers, placed, [&](int, std::size_t range, ChunkOutput& out, auto&& ready) {
-          const auto sleep = [](int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); };
-          if (range % 20 == 0) sleep(20);
-          for (std::uint32_t i = 0; i < 100; ++i) {
-            if (range % 20 == 1 && i == 50) sleep(40);
-            if (i % 20 == 0) ready();
-            out.triangles[out.count++].payload = static_cast<std::uint32_t>(range) * 100 + i;
-          }
-        });
-    ASSERT_EQ(order.total(), kRanges * 100);
-    for (std::uint32_t i = 0; i < kRanges * 100; ++i)
-      ASSERT_EQ(placed.screen.data()[i].payload, i) << workers << " workers";
-  }
+    }
 }
 
 }  // namespace

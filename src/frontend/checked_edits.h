@@ -1,4 +1,4 @@
-// Changes of a scene by the interfaces for C and Python. They throw std::invalid_argument before they change
+// Edits of a scene by the interfaces for C and Python. They throw std::invalid_argument before they change
 // anything.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 #include "edgewise/scene.h"
 #include "frontend/mesh_clusters.h"
-#include "frontend/submission.h"
+#include "frontend/scene_checks.h"
 
 namespace edgewise {
 
@@ -23,6 +23,11 @@ void add_part(Scene& scene, std::size_t mesh, MeshPart part);
 std::size_t add_instance(Scene& scene, const Instance& instance);
 void set_instance(Scene& scene, std::size_t instance, const glm::dmat4& matrix);
 void remove_instance(Scene& scene, std::size_t instance);
+
+// A direction towards the light, within the range of float.
+glm::vec3 checked_light(const glm::dvec3& towards);
+// The aspect of frame_camera().
+double checked_aspect(double aspect);
 
 // Sets the vertices of a mesh, whose triangles are there. Doubles keep a point of their own (Mesh::origin).
 inline void set_vertices(Mesh& mesh, std::vector<glm::vec3> points) {

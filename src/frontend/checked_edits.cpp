@@ -1,5 +1,8 @@
-#include "frontend/scene_edits.h"
+#include "frontend/checked_edits.h"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "frontend/view.h"
@@ -36,6 +39,19 @@ void set_instance(Scene& scene, std::size_t instance, const glm::dmat4& matrix) 
 void remove_instance(Scene& scene, std::size_t instance) {
   check_index("instance", instance, scene.instances.size());
   scene.instances.erase(scene.instances.begin() + static_cast<std::ptrdiff_t>(instance));
+}
+
+glm::vec3 checked_light(const glm::dvec3& towards) {
+  const double largest = std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)});
+  if (!(largest > 0.0 && std::isfinite(glm::dot(towards / largest, glm::dvec3(1.0)))))
+    throw std::invalid_argument("the direction towards the light must be finite and not 0");
+  return towards / largest;
+}
+
+double checked_aspect(double aspect) {
+  if (!(aspect > 0.0 && std::isfinite(aspect)))
+    throw std::invalid_argument("aspect must be finite and above 0");
+  return aspect;
 }
 
 }  // namespace edgewise
