@@ -28,8 +28,6 @@
 #define EDGEWISE_SPAN_LIST_INL_H
 #endif
 
-#if HWY_TARGET != HWY_SCALAR
-
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
@@ -45,6 +43,16 @@ struct SpanTile {
   alignas(64) std::int32_t payload[kPixels];
   HiZ<kMaxTile / kSpanBlockWidth, kMaxTile / kRows> hiz;
 };
+
+#if HWY_TARGET == HWY_SCALAR
+
+// The scalar target lists no spans.
+struct SpanList {
+  SpanList(SpanTile&, bool) {}
+  void draw() {}
+};
+
+#else
 
 constexpr std::int32_t wrapped_product(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
@@ -188,6 +196,8 @@ class SpanList {
   std::int32_t payload_[kBatch];
 };
 
+#endif
+
 // Draws masks up to the first with a rank above `last`, and returns their number.
 HWY_NOINLINE inline std::size_t draw_masks(SpanTile& tile, std::span<const CoverageMask> masks,
                                            std::uint32_t last) {
@@ -220,7 +230,5 @@ HWY_NOINLINE inline std::size_t draw_masks(SpanTile& tile, std::span<const Cover
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise
 HWY_AFTER_NAMESPACE();
-
-#endif
 
 #endif
