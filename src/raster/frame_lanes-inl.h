@@ -54,16 +54,9 @@ class BoxDepth {
 
 // Depth-tests a vector of pixels, and writes those of `covered` that are nearer.
 HWY_INLINE void write(std::int32_t* depth, std::int32_t* payload, hn::Mask<D> covered, V z, V colour) {
-  const D d;
-  const V old = hn::LoadU(d, depth);
-  const auto wins = hn::And(covered, hn::Lt(z, old));
-#if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
-  hn::BlendedStore(z, wins, d, depth);
-  hn::BlendedStore(colour, wins, d, payload);
-#else
-  hn::StoreU(hn::IfThenElse(wins, z, old), d, depth);
-  hn::StoreU(hn::IfThenElse(wins, colour, hn::LoadU(d, payload)), d, payload);
-#endif
+  const auto wins = hn::And(covered, hn::Lt(z, hn::LoadU(D{}, depth)));
+  replace(depth, wins, z);
+  replace(payload, wins, colour);
 }
 
 // The vector of pixels that holds pixel x, moved left if it would pass the area's right end.

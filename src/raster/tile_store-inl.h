@@ -52,8 +52,9 @@ struct FramePlane {
 
 // Calls write(store), where store(v, pixels) writes a vector of pixels to the frame. Cached stores also
 // prefetch the tile to the right, which is usually drawn next: its rows are too short for the hardware
-// prefetcher, and a few stores that wait for memory stall all others. The scalar target stores pixel by
-// pixel, where a prefetch costs more than it saves.
+// prefetcher, and a few stores that wait for memory stall all others. Without it, tiled takes 1.2 times as
+// long for grid64 (one thread, Zen 4). The scalar target stores pixel by pixel, where a prefetch costs more
+// than it saves.
 template <typename Write>
 HWY_INLINE void write_to(const FramePlane& to, Write&& write) {
   if (to.streaming) {

@@ -1,19 +1,14 @@
-// The tile's buffer, and the drawing of small triangles and of coverage masks.
+// The tile's buffer, and the drawing of small triangles.
 //
 // The buffer stores blocks of 4 x 4 pixels, each as 16 consecutive integers: one AVX-512 vector, two of AVX2,
 // four of SSE4 or NEON.
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "edgewise/contract.h"
-#include "raster/binning/mask_lists.h"
 #include "raster/edges/tile_setup-inl.h"
-#include "raster/fill_counts.h"
+#include "raster/kernels.h"
 #include "raster/simd/hiz-inl.h"
 #include "raster/tile_store-inl.h"
 
@@ -37,38 +32,60 @@ static_assert(kMaxBlocks == kBlockPixels);       // a row of blocks fills as man
 alignas(64) constexpr std::int32_t kLaneX[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kLaneY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-struct Tile {
-  // A coverage mask at the end of a plane also reads and writes back blocks behind the plane.
+class Tile {
+ public:
+  // Block by block. A coverage mask at the end of a plane also reads and writes back blocks behind the plane:
+  // the first payload blocks, or kSpare.
+  HWY_INLINE std::int32_t* depth() { return planes_; }
+  HWY_INLINE std::int32_t* payload() { return planes_ + kPixels; }
+
+ private:
+  static constexpr int kPixels = kMaxBlocks * kMaxBlocks * kBlockPixels;
   static constexpr int kSpare = (kMaxBlocks + 1) * kBlockPixels;
-  static constexpr int kPixels = kMaxBlocks * kMaxBlocks * kBlockPixels + kSpare;
-  alignas(64) std::int32_t depth[kPixels];  // block by block
-  alignas(64) std::int32_t payload[kPixels];
+  alignas(64) std::int32_t planes_[2 * kPixels + kSpare];
+
+ public:
   HiZ<kMaxBlocks, kMaxBlocks> hiz;
 };
+
+// Sets zmax to the farthest depth that a block holds. Returns whether any block's zmax is below kDepthClear.
+inline bool load_hiz(const TileTask& task, Tile& tile) {
+  const D d;
+  const int columns = (task.width() + kBlockSide - 1) / kBlockSide,
+            rows = (task.height() + kBlockSide - 1) / kBlockSide;
+  V least = hn::Set(d, wrap(kDepthClear));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const std::int32_t* const block = tile.depth() + (row * kMaxBlocks + column) * kBlockPixels;
+      V most = hn::Load(d, block);
+      for (int p = 1; p < kVectors; ++p) most = hn::Max(most, hn::Load(d, block + p * kLanes));
+      most = hn::MaxOfLanes(d, most);
+      least = hn::Min(least, most);
+      *tile.hiz.at(column, row) = hn::GetLane(most);
+    }
+  return hn::GetLane(least) < wrap(kDepthClear);
+}
 
 HWY_INLINE hn::Mask<D> not_negative(V v) {
   return hn::Gt(v, hn::Set(D{}, -1));
 }
 
-// Depth-tests a vector of a block's pixels and writes those that are covered and nearer. Stores whole
-// vectors: in a mesh, the next small triangle often loads the same block, and a load cannot be forwarded from
-// a masked store.
+// Depth-tests a vector of a block's pixels and writes those that are covered and nearer.
 HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
-  const D d;
-  const V old_z = hn::Load(d, tile.depth + at), old_payload = hn::Load(d, tile.payload + at);
-  const auto wins = hn::And(covered, hn::Lt(z, old_z));
-  hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth + at);
-  hn::Store(hn::IfThenElse(wins, payload, old_payload), d, tile.payload + at);
+  const auto wins = hn::And(covered, hn::Lt(z, hn::Load(D{}, tile.depth() + at)));
+  replace(tile.depth() + at, wins, z);
+  replace(tile.payload() + at, wins, payload);
 }
 
-// The values of a linear function at the 16 pixels of a block, relative to the block's first pixel.
+// The values of triangle k's linear function at the 16 pixels of a block, relative to the block's first
+// pixel.
 template <class Numbers>
 struct Values16 {
   typename Numbers::Vector v[kVectors];
-  HWY_INLINE Values16(typename Numbers::Value x, typename Numbers::Value y) {
+  HWY_INLINE Values16(const Linear<typename Numbers::Value>& f, int k) {
     for (int p = 0; p < kVectors; ++p)
-      v[p] = Numbers::add(Numbers::times(hn::Load(D{}, kLaneX + p * kLanes), x),
-                          Numbers::times(hn::Load(D{}, kLaneY + p * kLanes), y));
+      v[p] = Numbers::add(Numbers::times(hn::Load(D{}, kLaneX + p * kLanes), f.x[k]),
+                          Numbers::times(hn::Load(D{}, kLaneY + p * kLanes), f.y[k]));
   }
 };
 
@@ -97,9 +114,8 @@ class SmallTriangles {
     const int slot = used_++ * kBlockPixels;
     const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]),
             last_row = hn::Set(d, batch.by1[k] - batch.by0[k]);
-    const auto in_block = [&](int i) { return Values16<Numbers>(batch.edge[i].x[k], batch.edge[i].y[k]); };
-    const Values16<Numbers> edge_in[3] = {in_block(0), in_block(1), in_block(2)};
-    const Values16<Int32Numbers> depth_in(batch.depth.x[k], batch.depth.y[k]);
+    const Values16<Numbers> edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
+    const Values16<Int32Numbers> depth_in(batch.depth, k);
     const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
     for (int p = 0; p < kVectors; ++p) {
       const int lane = p * kLanes;
@@ -157,47 +173,6 @@ class SmallTriangles {
   std::int32_t candidates_[(kSlots + 1) * kBlockPixels];
   List list_{candidates_};
 };
-
-// The bit of each pixel of a mask's left blocks in CoverageMask::covered.
-alignas(64) constexpr auto kMaskBits = [] {
-  std::array<std::int32_t, kBlockPixels> bits{};
-  for (int i = 0; i < kBlockPixels; ++i)
-    bits[static_cast<std::size_t>(i)] = 1 << (i / kBlockSide * kMaskSide + i % kBlockSide);
-  return bits;
-}();
-
-constexpr std::ptrdiff_t kMasksAhead = 32;  // prefetch distance
-
-// Draws masks up to the first with a rank above `last`, and returns their number. Writes all four blocks of
-// every mask: a branch that skips blocks without a covered pixel would be mispredicted too often.
-HWY_NOINLINE inline std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks,
-                                           std::uint32_t last) {
-  const D d;
-  static_assert(kMaskSide == 2 * kBlockSide);
-  std::size_t n = 0;
-  for (; n != masks.size() && masks[n].rank <= last; ++n) {
-    const CoverageMask& mask = masks[n];
-    hwy::Prefetch(&mask + kMasksAhead);
-    const V zx = hn::Set(d, wrap(mask.zx)), zy = hn::Set(d, wrap(mask.zy));
-    const V z0 = hn::Set(d, wrap(mask.z)), payload = hn::Set(d, wrap(mask.payload));
-    const V right = hn::ShiftLeft<2>(zx), down = hn::ShiftLeft<2>(zy);
-    const V rows[2] = {hn::Set(d, wrap(mask.covered[0])), hn::Set(d, wrap(mask.covered[1]))};
-    for (int p = 0; p < kBlockPixels; p += kLanes) {
-      const V left_bits = hn::Load(d, kMaskBits.data() + p),
-              right_bits = hn::ShiftLeft<kBlockSide>(left_bits);
-      V z = hn::Add(z0, hn::Add(hn::Mul(hn::Load(d, kLaneX + p), zx), hn::Mul(hn::Load(d, kLaneY + p), zy)));
-      int at = static_cast<int>(mask.block) * kBlockPixels + p;
-      for (int y = 0; y < 2; ++y) {
-        write(tile, at, hn::TestBit(rows[y], left_bits), z, payload);
-        write(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right), payload);
-        z = hn::Add(z, down);
-        at += kMaxBlocks * kBlockPixels;
-      }
-    }
-  }
-  count(Part::masks, n);
-  return n;
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise

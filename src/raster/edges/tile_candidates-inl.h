@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 
 #include "edgewise/contract.h"
 #include "raster/edges/tile_blocks-inl.h"
@@ -34,38 +33,15 @@ HWY_INLINE bool may_fill_blocks(const Batch<Numbers>& batch, int k) {
   });
 }
 
-// For HiZ: no pixel that triangle k covers in a block is nearer than a linear function of the block's first
-// pixel, which at the triangle's first block is `first`.
-struct NearestDepth {
-  std::int32_t x = 0, y = 0, first;
-  std::int32_t least;  // over all blocks of the box
-
-  template <class Numbers>
-  NearestDepth(const Batch<Numbers>& batch, int k) : first(batch.nearest_vertex[k]), least(first) {
-    const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
-    if (std::max(std::abs(std::int64_t{zx}), std::abs(std::int64_t{zy})) >= kSteep) return;
-    const auto falls = [](std::int32_t step, int px) {
-      return static_cast<std::uint32_t>(std::min(step, 0)) * static_cast<std::uint32_t>(px);
-    };
-    const auto fall = [&](int across, int down) { return falls(zx, across) + falls(zy, down); };
-    x = zx, y = zy;
-    const std::uint32_t nearest =
-        static_cast<std::uint32_t>(batch.depth.first[k]) + fall(kBlockSide - 1, kBlockSide - 1);
-    first = wrap(nearest);
-    least = wrap(nearest + fall(kBlockSide * (batch.bx1[k] - batch.bx0[k]),
-                                kBlockSide * (batch.by1[k] - batch.by0[k])));
-  }
-};
-
 // A linear function of the pixel position, at the first pixels of a row of blocks, in kWidth vectors.
 template <class Numbers, int kWidth>
 struct Row {
   using Value = typename Numbers::Value;
   typename Numbers::Vector v[std::size_t{kWidth}], step;
-  HWY_INLINE Row(Value x, Value y, typename Numbers::Vector first) {
+  HWY_INLINE Row(const Linear<Value>& f, int k, typename Numbers::Vector first) {
     for (int p = 0; p < kWidth; ++p)
-      v[p] = Numbers::add(first, Numbers::times(hn::ShiftLeft<2>(counting_from(p * kLanes)), x));
-    step = Numbers::times(hn::Set(D{}, kBlockSide), y);
+      v[p] = Numbers::add(first, Numbers::times(hn::ShiftLeft<2>(counting_from(p * kLanes)), f.x[k]));
+    step = Numbers::times(hn::Set(D{}, kBlockSide), f.y[k]);
   }
   HWY_INLINE void next() {
     for (auto& value : v) value = Numbers::add(value, step);
@@ -82,20 +58,16 @@ struct Candidates {
 // Lists the candidate blocks of triangle k, whose box is at most kWidth vectors of blocks wide. With HiZ,
 // also lowers the zmax of the blocks that it covers: there no pixel stays farther than its farthest depth.
 template <class Numbers, bool kHiZ, int kWidth>
-HWY_NOINLINE void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, const NearestDepth& bound,
-                                  Candidates& out) {
+void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, Candidates& out) {
   const D d;
   const auto largest = [&](const auto& edge) {  // in a block
-    return Row<Numbers, kWidth>(edge.x[k], edge.y[k],
+    return Row<Numbers, kWidth>(edge, k,
                                 Numbers::add(Numbers::set(edge.first[k]), Numbers::set(edge.rise[k])));
   };
   Row<Numbers, kWidth> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
-  using DepthRow = Row<Int32Numbers, kWidth>;
-  const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
-  const auto up = [](std::int32_t step) { return static_cast<std::uint32_t>(std::max(step, 0)); };
-  const V rise = hn::Set(d, wrap((kBlockSide - 1) * (up(zx) + up(zy))));
-  DepthRow farthest(zx, zy, hn::Add(hn::Set(d, batch.depth.first[k]), rise));
-  DepthRow nearest(bound.x, bound.y, hn::Set(d, bound.first));
+  Row<Int32Numbers, kWidth> farthest(
+      batch.depth, k, hn::Add(hn::Set(d, batch.depth.first[k]), hn::Set(d, batch.depth_rise[k])));
+  Row<Int32Numbers, kWidth> nearest(batch.nearest, k, hn::Set(d, batch.nearest.first[k]));
 
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
   std::int32_t* zmax = tile.hiz.at(batch.bx0[k], batch.by0[k]);
@@ -126,13 +98,12 @@ HWY_NOINLINE void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k
 
 // Draws a list of candidate blocks.
 template <class Numbers>
-HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& candidates) {
-  const D d;
+void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& candidates) {
   const int length = candidates.length, k = candidates.k;
-  const auto in_block = [&](const auto& edge) { return Values16<Numbers>(edge.x[k], edge.y[k]); };
-  const Values16<Numbers> edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]),
-                                        in_block(batch.edge[2])};
-  const Values16<Int32Numbers> depth_in(batch.depth.x[k], batch.depth.y[k]);
+  if (length == 0) return;
+  const D d;
+  const Values16<Numbers> edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
+  const Values16<Int32Numbers> depth_in(batch.depth, k);
   const V payload = hn::Set(d, batch.payload[k]);
   const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   for (int begin = 0; begin < length; begin += kLanes) {
@@ -150,7 +121,8 @@ HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const
     };
     for (int i = 0; i < 3; ++i) store_first(Numbers{}, batch.edge[i], edge_at[i]);
     store_first(Int32Numbers{}, batch.depth, depth_at);
-    for (int n = 0; n < std::min(kLanes, length - begin); ++n) {
+    const int count = std::min(kLanes, length - begin);
+    for (int n = 0; n < count; ++n) {
       const int block = first_block + candidates.offset[begin + n];
       const typename Numbers::Vector edge[3] = {Numbers::set(edge_at[0][n]), Numbers::set(edge_at[1][n]),
                                                 Numbers::set(edge_at[2][n])};

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstdlib>
-#include <span>
 
 #include "core/lanes-inl.h"
 #include "edgewise/contract.h"
@@ -35,13 +33,16 @@ constexpr std::int32_t wrap(std::uint32_t v) {
   return static_cast<std::int32_t>(v);
 }
 
-// Edge functions of a batch of triangles, linear in the pixel position.
+// Linear functions of the pixel position, one per triangle of a batch.
 template <typename Value>
-struct EdgeBatch {
+struct Linear {
   Value x[kBatch], y[kBatch];  // steps per pixel
   Value first[kBatch];         // at the first pixel of the triangle's first block
-  Value rise[kBatch];          // the largest value in a block less that at the block's first pixel
-  Value range[kBatch];         // the largest value in a block less the smallest
+};
+template <typename Value>
+struct EdgeBatch : Linear<Value> {
+  Value rise[kBatch];   // the largest value in a block less that at the block's first pixel
+  Value range[kBatch];  // the largest value in a block less the smallest
 };
 
 // The triangles' boxes in the tile, extended to whole blocks, so that an edge that accepts a box accepts
@@ -110,14 +111,42 @@ struct ContractNumbers : Int32Numbers {
 template <class Numbers>
 struct Batch {
   EdgeBatch<typename Numbers::Value> edge[3];
-  struct {
-    std::int32_t x[kBatch], y[kBatch], first[kBatch];  // as in EdgeBatch
-  } depth;                                             // rule 6, in wrapping int32
-  std::int32_t nearest_vertex[kBatch];                 // lower bound of the depth of the triangle's pixels
+  Linear<std::int32_t> depth;       // rule 6, in wrapping int32
+  std::int32_t depth_rise[kBatch];  // as in EdgeBatch
+  // For HiZ: no pixel that the triangle covers in a block is nearer than this function of the block's first
+  // pixel, and none in the tile is nearer than `least`.
+  Linear<std::int32_t> nearest;
+  std::int32_t least[kBatch];
   std::int32_t payload[kBatch];
   std::int32_t twice_area_px2[kBatch];
   std::int32_t bx0[kBatch], by0[kBatch], bx1[kBatch], by1[kBatch];  // the box in blocks, inclusive
 };
+
+// Sets up the depths of a vector of triangles as entries k … of the batch. Returns the bits of those whose
+// planes are exact.
+template <class Numbers>
+HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes& t, const Area& area,
+                                      V32 left, V32 top, const BlockBoxLanes& box, Batch<Numbers>& out,
+                                      int k) {
+  const V32 zero = hn::Zero(D32{});
+  const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
+  const DepthLanes depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
+  const V32 first = depth.at(hn::Add(left, set32(in_cell_x)), hn::Add(top, set32(in_cell_y)));
+  store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k), store(first, out.depth.first + k);
+  store(thrice(hn::Add(hn::Max(depth.x, zero), hn::Max(depth.y, zero))), out.depth_rise + k);
+
+  const auto flat = depth.is_flat();
+  const V32 falls_x = hn::Min(depth.x, zero), falls_y = hn::Min(depth.y, zero);
+  const V32 in_block = hn::Add(first, thrice(hn::Add(falls_x, falls_y)));
+  const V32 in_box =
+      hn::Add(first, lower(hn::Add(product(falls_x, box.last_x), product(falls_y, box.last_y))));
+  const V32 nearest = nearest_vertex(t);
+  store(hn::IfThenElseZero(flat, depth.x), out.nearest.x + k);
+  store(hn::IfThenElseZero(flat, depth.y), out.nearest.y + k);
+  store(hn::IfThenElse(flat, in_block, nearest), out.nearest.first + k);
+  store(hn::IfThenElse(flat, in_box, nearest), out.least + k);
+  return mask_bits(depth.exact);
+}
 
 // Sets up a vector of triangles as entries k … of the batch. Returns the bits of those that may cover a pixel
 // of the tile.
@@ -141,29 +170,25 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   const std::uint32_t drawn = lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{}))) &
                               Numbers::set_up(task, t, area, blocks, out.edge, k);
 
-  const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
-  const DepthLanes depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
-  store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
-  store(depth.at(hn::Add(left, set32(in_cell_x)), hn::Add(top, set32(in_cell_y))), out.depth.first + k);
-  store(nearest_vertex(t), out.nearest_vertex + k);
+  const std::uint32_t exact = set_up_depth(task, t, area, left, top, blocks, out, k);
   store(t.payload, out.payload + k);
   store(lower(shift_right<2 * kSubBits>(area.value)), out.twice_area_px2 + k);
   store(bx0, out.bx0 + k), store(by0, out.by0 + k), store(bx1, out.bx1 + k), store(by1, out.by1 + k);
-  for (std::uint32_t inexact = drawn & ~mask_bits(depth.exact); inexact != 0; inexact &= inexact - 1) {
+  for (std::uint32_t inexact = drawn & ~exact; inexact != 0; inexact &= inexact - 1) {
     const int lane = std::countr_zero(inexact), at = k + lane;
-    const DepthPlane plane = make_depth(orient(task.triangles[indices[lane]]));
-    out.depth.x[at] = wrap(plane.zx), out.depth.y[at] = wrap(plane.zy);
+    const ScreenTriangle& triangle = task.triangles[indices[lane]];
+    const DepthPlane plane = make_depth(orient(triangle));
+    const std::uint32_t zx = plane.zx, zy = plane.zy;
+    out.depth.x[at] = wrap(zx), out.depth.y[at] = wrap(zy);
     out.depth.first[at] =
         wrap(plane.at(task.x0 + out.bx0[at] * kBlockSide, task.y0 + out.by0[at] * kBlockSide));
+    const auto rise = [](std::uint32_t step) { return wrap(step) > 0 ? (kBlockSide - 1) * step : 0; };
+    out.depth_rise[at] = wrap(rise(zx) + rise(zy));
+    out.nearest.x[at] = out.nearest.y[at] = 0;
+    out.nearest.first[at] = out.least[at] =
+        wrap(std::min({triangle.z[0], triangle.z[1], triangle.z[2]}) - kDepthError);
   }
   return drawn;
-}
-
-// Sets up triangles[indices[i]] for all i. Returns bit i for those that may cover a pixel of the tile.
-template <class Numbers>
-std::uint32_t set_up(const TileTask& task, std::span<const std::uint32_t> indices, Batch<Numbers>& out) {
-  return set_up_batch(
-      indices, [&](const std::uint32_t* padded, int k) { return set_up_vector(task, padded + k, out, k); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -60,11 +60,11 @@ constexpr std::int32_t wrapped_product(std::int32_t a, std::int32_t b) {
 
 class SpanList {
  public:
-  SpanList(SpanTile& tile, bool hierarchical_depth) : tile_(tile), occludes_(hierarchical_depth) {}
+  SpanList(SpanTile& tile, bool hierarchical_depth) : tile_(tile), uses_hiz_(hierarchical_depth) {}
 
   HWY_INLINE void add(const SpanBatch& batch, int k) {
     const bool wide = batch.x1[k] - batch.x0[k] > kNarrow;
-    if (wide && occludes_ && tile_.hiz.occludes(batch.nearest[k])) return count(Part::hiz);
+    if (wide && uses_hiz_ && tile_.hiz.occludes(batch.nearest[k])) return count(Part::hiz);
     count(Part::tile_spans);
     if (length_ > kCapacity - kMostSpans) draw();
     const D d;
@@ -148,7 +148,7 @@ class SpanList {
     const D d;
     const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
     std::int32_t& hiz = *tile_.hiz.at(x / kSpanBlockWidth, y / kRows);
-    if (occludes_ && z + std::min(0, zx * (kSpanBlockWidth - 1)) + std::min(0, zy * (kRows - 1)) >= hiz)
+    if (uses_hiz_ && z + std::min(0, zx * (kSpanBlockWidth - 1)) + std::min(0, zy * (kRows - 1)) >= hiz)
       return;
     V far = hn::Zero(d);
     const V payload = hn::Set(d, batch.payload[k]);
@@ -185,7 +185,7 @@ class SpanList {
   }
 
   SpanTile& tile_;
-  const bool occludes_;
+  const bool uses_hiz_;
   int length_ = 0;
   // Two pairs per span. The first describes the aligned vector of pixels in which the span begins: its
   // position in the tile | triangle of the batch << 16, and the depth at its first pixel. The second is the
