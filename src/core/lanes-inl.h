@@ -39,8 +39,8 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   return little_endian(bits);
 }
 
-// Stores the lanes of a mask. With AVX-512, which has mask registers, meshes are drawn 1.00 to 1.06 times as
-// fast by masked stores (sphere, terrain and torus-knot on one thread, Zen 4).
+// Stores the lanes of a mask. Masked stores, which AVX-512 has, draw meshes up to 1.06× faster (sphere,
+// terrain and torus-knot on one thread, Zen 4).
 HWY_INLINE void replace(std::int32_t* at, hn::Mask<D> where, V v) {
 #if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
   hn::BlendedStore(v, where, D{}, at);

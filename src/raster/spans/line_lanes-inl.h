@@ -17,9 +17,8 @@
 //   line that starts farther away does not reach the area in its rows, not even with its start clamped to
 //   2^18 + 2^17 px.
 // - Start, steps and the at most 2^15 px from vertex to area sum up to less than 2^20 px = 2^63 units.
-// An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. Its triangle is
-// divided in integers (raster/spans/edge_walk.h). So is a triangle whose depth gradient is
-// too large for doubles. proofs/spans.smt2 proves these claims.
+// An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. The spans of its
+// triangle are found by integer divisions (raster/spans/edge_walk.h). proofs/spans.smt2 proves these claims.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -119,17 +118,21 @@ HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes& t, const Area& area, i
 template <typename Span>
 HWY_INLINE void for_each_line_span(const BatchLine (&line)[3], int k, int left, const PixelBox& box,
                                    Span&& span) {
-  std::int64_t at[3];
-  for (int i = 0; i < 3; ++i) at[i] = line[i].at[k];
+  std::int64_t at[3], step[3];  // copies, which stores of pixels cannot change
+  int is_left[3], is_right[3];
+  for (int i = 0; i < 3; ++i) {
+    at[i] = line[i].at[k], step[i] = line[i].step[k];
+    is_left[i] = line[i].is_left[k], is_right[i] = line[i].is_right[k];
+  }
   for (int y = box.y0; y < box.y1; ++y) {
-    int begin = box.x0, end = box.x1;
+    int begin = box.x0 - left, end = box.x1 - left;
     for (int i = 0; i < 3; ++i) {  // no branches: sides are hard to predict
-      const int pixel = left + static_cast<int>(at[i] >> kUnitBits);
-      begin = std::max(begin, pixel & line[i].is_left[k]);
-      end = std::min(end, (pixel & line[i].is_right[k]) | (kMaxImageSide & ~line[i].is_right[k]));
-      at[i] += line[i].step[k];
+      const auto pixel = static_cast<int>(at[i] >> kUnitBits);
+      begin = std::max(begin, pixel & is_left[i]);
+      end = std::min(end, (pixel & is_right[i]) | (kMaxImageSide & ~is_right[i]));
+      at[i] += step[i];
     }
-    span(y, begin, end);
+    span(y, begin + left, end + left);
   }
 }
 
