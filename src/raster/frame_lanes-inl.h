@@ -1,10 +1,10 @@
-// What the kernels that draw in the frame itself share: rows of pixels, and batches of triangles with one
-// triangle per lane.
+// What the kernels that draw in the frame itself share: rows of pixels, and batches of triangles.
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/lanes-inl.h"
 #include "edgewise/contract.h"
@@ -54,16 +54,9 @@ class BoxDepth {
 
 // Depth-tests a vector of pixels, and writes those of `covered` that are nearer.
 HWY_INLINE void write(std::int32_t* depth, std::int32_t* payload, hn::Mask<D> covered, V z, V colour) {
-  const D d;
-  const V old = hn::LoadU(d, depth);
-  const auto wins = hn::And(covered, hn::Lt(z, old));
-#if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
-  hn::BlendedStore(z, wins, d, depth);
-  hn::BlendedStore(colour, wins, d, payload);
-#else
-  hn::StoreU(hn::IfThenElse(wins, z, old), d, depth);
-  hn::StoreU(hn::IfThenElse(wins, colour, hn::LoadU(d, payload)), d, payload);
-#endif
+  const auto wins = hn::And(covered, hn::Lt(z, hn::LoadU(D{}, depth)));
+  replace(depth, wins, z);
+  replace(payload, wins, colour);
 }
 
 // The vector of pixels that holds pixel x, moved left if it would pass the area's right end.
@@ -77,49 +70,54 @@ HWY_INLINE V set(std::uint32_t v) {
   return hn::Set(D{}, static_cast<std::int32_t>(v));
 }
 
-#if HWY_TARGET != HWY_SCALAR
+// A batch of triangles: their boxes in the area, and their depth planes (rule 6).
+struct FrameBatch {
+  std::int32_t x0[kBatch], y0[kBatch], x1[kBatch], y1[kBatch];
+  std::int64_t gx[kBatch], gy[kBatch], origin[kBatch];
+  std::int32_t zx[kBatch], zy[kBatch];
 
-// Stores the boxes as entries k … of a batch. Returns the bits of triangles that are drawn.
+  PixelBox box(int k) const { return {x0[k], y0[k], x1[k], y1[k]}; }
+  DepthPlane plane(int k) const {
+    const auto bits = [](auto v) { return static_cast<std::make_unsigned_t<decltype(v)>>(v); };
+    return {bits(gx[k]), bits(gy[k]), bits(origin[k]), bits(zx[k]), bits(zy[k])};
+  }
+
+  // Stores a vector of triangles as entries k … Returns the bits of those that are drawn.
+  HWY_INLINE std::uint32_t store_vector(const TriangleLanes& t, const BoxLanes& in_area, const Area& area,
+                                        const ScreenTriangle* triangles, const std::uint32_t* indices,
+                                        int k) {
+    const D64 d;
+    const DepthLanes depth = depth_lanes(t, area, 0, 0);
+    store(in_area.x0, x0 + k), store(in_area.y0, y0 + k);
+    store(in_area.x1, x1 + k), store(in_area.y1, y1 + k);
+    hn::StoreU(depth.gx, d, gx + k), hn::StoreU(depth.gy, d, gy + k), hn::StoreU(depth.start, d, origin + k);
+    store(depth.x, zx + k), store(depth.y, zy + k);
+    const std::uint32_t drawn = lower_bits(in_area.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
+    for (std::uint32_t left = drawn & ~mask_bits(depth.exact); left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const DepthPlane exact = make_depth(orient(triangles[indices[lane]]));
+      gx[k + lane] = static_cast<std::int64_t>(exact.gx), gy[k + lane] = static_cast<std::int64_t>(exact.gy);
+      origin[k + lane] = static_cast<std::int64_t>(exact.origin);
+      zx[k + lane] = static_cast<std::int32_t>(exact.zx), zy[k + lane] = static_cast<std::int32_t>(exact.zy);
+    }
+    return drawn;
+  }
+};
+
+// Draws a cell's triangles in submission order, by set_up_vector(task, indices, batch, k), which sets up a
+// vector of triangles as entries k … of a Batch, and draw(task, batch, k, triangle).
 template <typename Batch>
-HWY_INLINE std::uint32_t store_box(const BoxLanes& box, const Area& area, Batch& out, int k) {
-  store(box.x0, out.x0 + k), store(box.x1, out.x1 + k);
-  store(box.y0, out.y0 + k), store(box.y1, out.y1 + k);
-  return lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
-}
-
-#endif
-
-// Calls draw_one(triangle, box) with the triangle's box in the area, unless it is empty.
-template <typename DrawOne>
-HWY_INLINE void draw_in_area(const FrameTask& task, const ScreenTriangle& triangle, DrawOne&& draw_one) {
-  PixelBox box = pixel_box(triangle, task.area.x1, task.area.y1);
-  box.x0 = std::max(box.x0, task.area.x0);
-  box.y0 = std::max(box.y0, task.area.y0);
-  if (!box.empty()) draw_one(triangle, box);
-}
-
-// Draws a cell's triangles in submission order: with vectors, those that fit a Batch by draw(task, batch, k),
-// the others by draw_one(triangle, box).
-template <typename Batch, typename DrawOne>
-HWY_INLINE void draw_in_batches(const FrameTask& task, DrawOne&& draw_one) {
+HWY_INLINE void draw_in_batches(const FrameTask& task) {
   const ScreenTriangle* const triangles = task.bins.triangles();
   task.bins.for_each_segment_ahead(task.cell, [&](const Bins::Segment& segment) {
-#if HWY_TARGET == HWY_SCALAR
-    for (const std::uint32_t index : segment.indices) draw_in_area(task, triangles[index], draw_one);
-#else
     Batch batch;
-    const BatchBits bits = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
-      return set_up_vector(task, padded, batch, k);
+    std::uint32_t left = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
+      return set_up_vector(task, padded + k, batch, k);
     });
-    for (std::uint32_t left = bits.drawn; left != 0; left &= left - 1) {
+    for (; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      if (bits.scalar >> k & 1)
-        draw_one(triangles[segment.indices[static_cast<std::size_t>(k)]],
-                 PixelBox{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]});
-      else
-        draw(task, batch, k);
+      draw(task, batch, k, triangles[segment.indices[static_cast<std::size_t>(k)]]);
     }
-#endif
   });
   clear_upper_halves();
 }

@@ -44,6 +44,7 @@ struct TileTask {
   int top() const { return std::max(part.y0 - y0, 0); }
   int width() const { return std::min(size(), part.frame.width - x0); }
   int height() const { return std::min(size(), part.frame.height - y0); }
+  contract::PixelBox box() const { return {x0, y0, x0 + width(), y0 + height()}; }
 };
 using TileKernel = void (*)(const TileTask&);
 

@@ -1,4 +1,4 @@
-; Spans, by edges walked in binary fractions (line_lanes-inl.h) or with a remainder (edge_walk.h). Theories:
+; Spans, by edges walked in binary fractions (line_lanes-inl.h) or by division (edge_walk.h). Theories:
 ; nonlinear real arithmetic, with a rounding to double as a factor 1 + e, |e| <= 2^-53; linear real arithmetic.
 ;
 ; In units of 2^-43 px, a step or start is a quotient of integers, computed with two roundings to double (the quotient
@@ -94,7 +94,7 @@
 (assert (and (<= (absr dx) 8388608.0) (> dy 0.0) (>= (absr dx) (* 4096.0 dy))))
 (assert (not (<= dy 1792.0)))
 
-;; claim walk_numerator: EdgeWalk's numerator fits 64 bits with 15 to spare: it stays below 2^49.
+;; claim walk_numerator: The numerator of first_right_of() fits 64 bits with 15 to spare: it stays below 2^49.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real) (declare-const s Real)
 (assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard s) (< py qy)))
 (define-fun numerator () Real
@@ -108,27 +108,3 @@
   (+ (* (- px 128.0) (- qy py)) (* (- s py) (- qx px)) (* 256.0 (- qy py)) (- 1.0)))
 (assert (and (= px 0.0) (= py (- 4194304.0))))
 (assert (not (between (- 35184372088832.0) numerator 35184372088832.0)))
-
-;; claim walk_row: EdgeWalk::next_row() keeps pixel and rest equal to quotient and remainder of the division: n =
-;;   pixel d + rest and 0 <= rest < d, where n grows by 256 dx per row; d = 256 dy, and dx = pixel_step dy +
-;;   rest_step.
-(declare-const n Real) (declare-const pixel Real) (declare-const rest Real)
-(declare-const dy Real) (declare-const dx Real) (declare-const pixel_step Real) (declare-const rest_step Real)
-(define-fun d () Real (* 256.0 dy))
-(assert (and (> dy 0.0) (= n (+ (* pixel d) rest)) (<= 0.0 rest) (< rest d)))
-(assert (and (= dx (+ (* pixel_step dy) rest_step)) (<= 0.0 rest_step) (< rest_step dy)))
-(define-fun carry () Real (ite (>= (+ rest (* 256.0 rest_step)) d) 1.0 0.0))
-(define-fun next_pixel () Real (+ pixel pixel_step carry))
-(define-fun next_rest () Real (- (+ rest (* 256.0 rest_step)) (* carry d)))
-(assert (not (and (= (+ n (* 256.0 dx)) (+ (* next_pixel d) next_rest)) (<= 0.0 next_rest) (< next_rest d))))
-
-;; weakened walk_row: The same with a carry where rest exceeds d, instead of where it reaches d.
-(declare-const n Real) (declare-const pixel Real) (declare-const rest Real)
-(declare-const dy Real) (declare-const dx Real) (declare-const pixel_step Real) (declare-const rest_step Real)
-(define-fun d () Real (* 256.0 dy))
-(assert (and (> dy 0.0) (= n (+ (* pixel d) rest)) (<= 0.0 rest) (< rest d)))
-(assert (and (= dx (+ (* pixel_step dy) rest_step)) (<= 0.0 rest_step) (< rest_step dy)))
-(define-fun carry () Real (ite (> (+ rest (* 256.0 rest_step)) d) 1.0 0.0))
-(define-fun next_pixel () Real (+ pixel pixel_step carry))
-(define-fun next_rest () Real (- (+ rest (* 256.0 rest_step)) (* carry d)))
-(assert (not (and (= (+ n (* 256.0 dx)) (+ (* next_pixel d) next_rest)) (<= 0.0 next_rest) (< next_rest d))))

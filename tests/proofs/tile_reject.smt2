@@ -1,11 +1,11 @@
-; Acceptance and rejection of cells, tiles and blocks (bins.cpp, tile_arithmetic-inl.h, tile_rows-inl.h, hiz-inl.h): none
+; Acceptance and rejection of cells, tiles and blocks (bins.cpp, tile_setup-inl.h, tile_candidates-inl.h, hiz-inl.h): none
 ; with a covered pixel is rejected, none with a pixel outside is accepted. Theories: nonlinear real arithmetic; linear
 ; integer arithmetic for shifted values.
 ;
 ; f + x a + y b is an edge value or a depth at pixel (x, y) of a box, counted from its first pixel; (last_x, last_y)
 ; is the last.
 
-(define-const kBlockSide Real 4.0)     ; = kBlockSide of src/raster/tiled/tile_linear-inl.h
+(define-const kBlockSide Real 4.0)     ; = kBlockSide of src/raster/tile_store-inl.h
 (define-const kSteep Int 16777216)     ; = kSteep of src/raster/simd/depth_lanes-inl.h
 
 (declare-const f Real) (declare-const a Real) (declare-const b Real)

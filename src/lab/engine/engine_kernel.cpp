@@ -18,15 +18,15 @@ namespace HWY_NAMESPACE {
 TileKernel engine_tile(lab::EngineArithmetic arithmetic) {
   switch (arithmetic) {
     case lab::EngineArithmetic::int32:
-      return draw_tile_in<OtherArithmetic<Int32Arithmetic>>;
+      return draw_tile_in<OtherNumbers<Int32Numbers>>;
     case lab::EngineArithmetic::int64:
-      return draw_tile_in<OtherArithmetic<WideLanes<std::int64_t>>>;
+      return draw_tile_in<OtherNumbers<WideNumbers<std::int64_t>>>;
     case lab::EngineArithmetic::float64:
-      return draw_tile_in<OtherArithmetic<WideLanes<double>>>;
+      return draw_tile_in<OtherNumbers<WideNumbers<double>>>;
     case lab::EngineArithmetic::float32:
-      return draw_tile_in<OtherArithmetic<FloatLanes>>;
+      return draw_tile_in<OtherNumbers<FloatNumbers>>;
     case lab::EngineArithmetic::float32_rebased:
-      return draw_tile_in<OtherArithmetic<FloatLanes, true>>;
+      return draw_tile_in<OtherNumbers<FloatNumbers, true>>;
     default:
       throw std::invalid_argument("not another arithmetic of the engine");
   }

@@ -13,14 +13,13 @@
 // a s.x and b s.y are not both -0, since no sample has a coordinate 0 and a or b is not 0.
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
 
 #include "core/lanes-inl.h"
 #include "edgewise/contract.h"
-#include "raster/edges/tile_arithmetic-inl.h"
+#include "raster/edges/tile_setup-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_OTHER_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -52,20 +51,20 @@ HWY_INLINE hn::Vec<DF> product_of(DF df, hn::Vec<DF> a, hn::Vec<DF> b) {
   return hn::Mul(a, b);
 }
 
-struct FloatLanes {
+struct FloatNumbers {
   using Value = float;
   using Floats = hn::RebindToFloat<D>;
   using Vector = hn::Vec<Floats>;
   static HWY_INLINE Vector set(Value v) { return hn::Set(Floats{}, v); }
-  static HWY_INLINE Vector load(const Value* at) { return hn::Load(Floats{}, at); }
-  static HWY_INLINE void store(Vector v, Value* at) { hn::Store(v, Floats{}, at); }
+  static HWY_INLINE Vector load_values(const Value* at) { return hn::Load(Floats{}, at); }
+  static HWY_INLINE void store_values(Vector v, Value* at) { hn::Store(v, Floats{}, at); }
   static HWY_INLINE Vector add(Vector a, Vector b) { return hn::Add(a, b); }
   static HWY_INLINE Vector subtract(Vector a, Vector b) { return hn::Sub(a, b); }
-  static HWY_INLINE Vector times(V count, Value step) {
-    return hn::Mul(hn::ConvertTo(Floats{}, count), hn::Set(Floats{}, step));
+  static HWY_INLINE Vector times(V pixels, Value step) {
+    return hn::Mul(hn::ConvertTo(Floats{}, pixels), hn::Set(Floats{}, step));
   }
   static HWY_INLINE Vector four_times(Vector v) { return hn::Mul(v, hn::Set(Floats{}, 4.0f)); }
-  static HWY_INLINE V outside(Vector e0, Vector e1, Vector e2) {
+  static HWY_INLINE V any_negative(Vector e0, Vector e1, Vector e2) {
     return hn::BitCast(D{}, hn::Or(hn::Or(e0, e1), e2));
   }
 };
@@ -75,7 +74,7 @@ constexpr int kHalfLanes = kLanes / kHalves;  // lanes
 
 // Vectors of kLanes 64-bit numbers: two vectors of the target, one for the scalar target.
 template <typename T>
-struct WideLanes {
+struct WideNumbers {
   using Value = T;
   using Half = hn::CappedTag<T, kHalfLanes>;
   struct Vector {
@@ -84,10 +83,10 @@ struct WideLanes {
   static HWY_INLINE Vector set(Value v) {
     return each([&](int) { return hn::Set(Half{}, v); });
   }
-  static HWY_INLINE Vector load(const Value* at) {
+  static HWY_INLINE Vector load_values(const Value* at) {
     return each([&](int i) { return hn::Load(Half{}, at + i * kHalfLanes); });
   }
-  static HWY_INLINE void store(const Vector& v, Value* at) {
+  static HWY_INLINE void store_values(const Vector& v, Value* at) {
     for (int i = 0; i < kHalves; ++i) hn::Store(v.half[i], Half{}, at + i * kHalfLanes);
   }
   static HWY_INLINE Vector add(const Vector& a, const Vector& b) {
@@ -96,9 +95,9 @@ struct WideLanes {
   static HWY_INLINE Vector subtract(const Vector& a, const Vector& b) {
     return each([&](int i) { return hn::Sub(a.half[i], b.half[i]); });
   }
-  static HWY_INLINE Vector times(V count, Value step) {
-    if constexpr (std::is_integral_v<T>) count = hn::ShiftLeft<contract::kSubBits + kFinerBits<T>>(count);
-    return each([&](int i) { return product_of(Half{}, widened(count, i), hn::Set(Half{}, step)); });
+  static HWY_INLINE Vector times(V pixels, Value step) {
+    if constexpr (std::is_integral_v<T>) pixels = hn::ShiftLeft<contract::kSubBits + kFinerBits<T>>(pixels);
+    return each([&](int i) { return product_of(Half{}, widened(pixels, i), hn::Set(Half{}, step)); });
   }
   static HWY_INLINE Vector four_times(const Vector& v) {
     return each([&](int i) {
@@ -108,7 +107,7 @@ struct WideLanes {
         return hn::Mul(v.half[i], hn::Set(Half{}, T{4}));
     });
   }
-  static HWY_INLINE V outside(const Vector& e0, const Vector& e1, const Vector& e2) {
+  static HWY_INLINE V any_negative(const Vector& e0, const Vector& e1, const Vector& e2) {
     const auto any = [&](int i) { return hn::Or(hn::Or(e0.half[i], e1.half[i]), e2.half[i]); };
 #if HWY_TARGET == HWY_SCALAR
     return hn::Set(D{}, hn::GetLane(hn::BitCast(hn::CappedTag<std::int64_t, 1>{}, any(0))) < 0 ? -1 : 0);
@@ -134,160 +133,103 @@ struct WideLanes {
   }
 };
 
-template <class Lanes, bool kRebased = false>
-struct OtherArithmetic : Lanes {
-  using typename Lanes::Value;
-  using typename Lanes::Vector;
-  // Of an edge: a, b, p.x, p.y, the box's first sample, and its last pixel from its first.
-  static constexpr int kInputs = 8;
-  static constexpr std::int32_t origin(int tile_px) { return kRebased ? tile_px * contract::kSub : 0; }
+// The kernel's numbers (tile_setup-inl.h). Rebased: relative to the tile's corner.
+template <class Numbers, bool kRebased = false>
+struct OtherNumbers : Numbers {
+  using typename Numbers::Value;
 
-  static HWY_INLINE bool spans_more(Value range, std::int32_t twice_area_px) {
+  static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
     // The area was rounded down.
     return static_cast<double>(range) >=
-           (twice_area_px + 1.0) * (1 << 2 * (contract::kSubBits + kFinerBits<Value>));
+           (twice_area_px2 + 1.0) * (1 << 2 * (contract::kSubBits + kFinerBits<Value>));
   }
 
-  static bool set_up_one(const TileTask& task, const contract::Oriented& t, const BlockBox& box,
-                         Linear<Value> (&out)[3], int k) {
-    const hn::CappedTag<Value, 1> df;
-    const auto set = [&](std::int32_t v) { return hn::Set(df, static_cast<Value>(v)); };
-    for (int i = 0; i < 3; ++i) {
-      const contract::Edge e = contract::make_edge(t, i);
-      const hn::Vec<decltype(df)> in[kInputs] = {
-          set(e.a),
-          set(e.b),
-          set(t.x[i] - origin(task.x0)),
-          set(t.y[i] - origin(task.y0)),
-          set(contract::sample_sub(task.x0 + box.left) - origin(task.x0)),
-          set(contract::sample_sub(task.y0 + box.top) - origin(task.y0)),
-          set(box.last_x),
-          set(box.last_y)};
-      if (!hn::AllFalse(df, set_up_edge(df, in, out[i], k))) return false;
-    }
-    return true;
-  }
-
-#if HWY_TARGET != HWY_SCALAR
-  struct HalfEdges {
-    V32 edge[3][kInputs];
-  };
-  static HWY_INLINE V64 set_up_half(const TileTask& task, const TriangleLanes& t, const Area& area,
-                                    const BlockBoxLanes& box, HalfEdges& out) {
-    const V32 flip = lower(area.flip), x0 = set32(origin(task.x0)), y0 = set32(origin(task.y0));
-    const auto sample = [](V32 px, int first) {
-      return hn::Add(hn::ShiftLeft<contract::kSubBits>(px), set32(contract::sample_sub(first)));
-    };
-    const V32 sample_x = hn::Sub(sample(box.left, task.x0), x0),
-              sample_y = hn::Sub(sample(box.top, task.y0), y0);
+  // As in ContractNumbers.
+  static HWY_INLINE std::uint32_t set_up(const TileTask& task, const TriangleLanes& t, const Area& area,
+                                         const BlockBoxLanes& box, EdgeBatch<Value> (&out)[3], int k) {
+    const V32 flip = lower(area.flip);
+    const V32 x0 = set32(kRebased ? task.x0 * contract::kSub : 0),
+              y0 = set32(kRebased ? task.y0 * contract::kSub : 0);
+    std::uint32_t kept = ~0u;
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
-      const V32 in[kInputs] = {flipped(hn::Sub(t.y[i], t.y[j]), flip),
-                               flipped(hn::Sub(t.x[j], t.x[i]), flip),
-                               hn::Sub(t.x[i], x0),
-                               hn::Sub(t.y[i], y0),
-                               sample_x,
-                               sample_y,
-                               box.last_x,
-                               box.last_y};
-      std::copy(in, in + kInputs, out.edge[i]);
+      kept &= set_up_edge({flipped(hn::Sub(t.y[i], t.y[j]), flip), flipped(hn::Sub(t.x[j], t.x[i]), flip),
+                           hn::Sub(t.x[i], x0), hn::Sub(t.y[i], y0), hn::Sub(box.sample_x, x0),
+                           hn::Sub(box.sample_y, y0), box.last_x, box.last_y},
+                          out[i], k);
     }
-    return hn::Zero(D64{});
+    return kept;
   }
-  static HWY_INLINE std::uint32_t store_edges(const HalfEdges& left, const HalfEdges& right,
-                                              Linear<Value> (&out)[3], int k) {
-    std::uint32_t rejected = 0;
-    for (int i = 0; i < 3; ++i)
-      if constexpr (sizeof(Value) == sizeof(std::int32_t)) {
-        const hn::Rebind<Value, D> df;
-        hn::Vec<decltype(df)> in[kInputs];
-        for (int n = 0; n < kInputs; ++n) {
-          const V whole = both(left.edge[i][n], right.edge[i][n]);
-          if constexpr (std::is_integral_v<Value>)
-            in[n] = whole;
-          else
-            in[n] = hn::ConvertTo(df, whole);
-        }
-        rejected |= mask_bits(hn::RebindMask(D{}, set_up_edge(df, in, out[i], k)));
-      } else {
-        rejected |= store_half(left.edge[i], out[i], k) | store_half(right.edge[i], out[i], k + kHalfLanes)
-                                                              << kHalfLanes;
-      }
-    return ~rejected;
-  }
-#endif
 
  private:
+  using Tag = hn::Rebind<Value, D64>;  // one triangle per lane
+  using Vec = hn::Vec<Tag>;
+  struct EdgeInput {
+    V32 a, b, x, y;  // of an edge that begins at (x, y)
+    V32 sample_x, sample_y, last_x, last_y;
+  };
+
+  static HWY_INLINE Vec number(V32 v) {
+    if constexpr (std::is_same_v<Value, std::int32_t>)
+      return packed(v);
+    else if constexpr (std::is_same_v<Value, float>)
+      return hn::ConvertTo(Tag{}, packed(v));
+    else
+      return hn::PromoteTo(Tag{}, packed(v));
+  }
+  static HWY_INLINE Vec finer(V32 v) {
+    if constexpr (kFinerBits<Value> == 0)
+      return number(v);
+    else
+      return hn::ShiftLeft<kFinerBits<Value>>(number(v));
+  }
+  static HWY_INLINE Vec in_px(Vec v) {
+    if constexpr (std::is_integral_v<Value>)
+      return hn::ShiftLeft<contract::kSubBits + kFinerBits<Value>>(v);
+    else
+      return hn::Mul(v, hn::Set(Tag{}, Value{contract::kSub}));
+  }
+  // Steps of 64-bit integers fit 32 bits: times() counts their units.
+  static HWY_INLINE Vec step(Vec v) {
+    if constexpr (std::is_same_v<Value, std::int64_t>)
+      return v;
+    else
+      return in_px(v);
+  }
+  static HWY_INLINE Vec weighted(Vec p, Vec q, Vec x, Vec y) {
+    return hn::Add(product_of(Tag{}, p, x), product_of(Tag{}, q, y));
+  }
   // That of rule 4. In floats it is more than is lost by rounding `first` and values up to a block's range,
   // so that a sample exactly on the edge stays outside.
-  template <class DF>
-  static HWY_INLINE hn::Vec<DF> bias_of(DF df, hn::Vec<DF> first, hn::Vec<DF> range) {
-    const auto one = hn::Set(df, Value{1});
+  static HWY_INLINE Vec bias_of(Vec first, Vec range) {
+    const auto one = hn::Set(Tag{}, Value{1});
     if constexpr (std::is_integral_v<Value>)
       return one;
     else
-      return hn::Max(
-          one, hn::Mul(hn::Add(hn::Abs(first), range), hn::Set(df, std::numeric_limits<Value>::epsilon())));
+      return hn::Max(one, hn::Mul(hn::Add(hn::Abs(first), range),
+                                  hn::Set(Tag{}, std::numeric_limits<Value>::epsilon())));
   }
 
-#if HWY_TARGET != HWY_SCALAR
-  static HWY_INLINE std::uint32_t store_half(const V32 (&edge)[kInputs], Linear<Value>& out, int k) {
-    const hn::Rebind<Value, D64> df;
-    const hn::Rebind<std::int32_t, D64> packed;
-    hn::Vec<decltype(df)> in[kInputs];
-    for (int n = 0; n < kInputs; ++n)
-      in[n] =
-          hn::PromoteTo(df, hn::BitCast(packed, hn::TruncateTo(Low32{}, hn::BitCast(U64{}, as64(edge[n])))));
-    return mask_bits(hn::RebindMask(D64{}, set_up_edge(df, in, out, k)));
-  }
-#endif
-
-  // Stores the edge from out.x[k] on. An edge that accepts the box becomes the constant 0. The mask is set
-  // where the edge rejects the box.
-  template <class DF>
-  static HWY_INLINE hn::Mask<DF> set_up_edge(DF df, const hn::Vec<DF> (&in)[kInputs], Linear<Value>& out,
-                                             int k) {
-    const auto finer = [&](int i) {
-      if constexpr (kFinerBits<Value> == 0)
-        return in[i];
-      else
-        return hn::ShiftLeft<kFinerBits<Value>>(in[i]);
+  static HWY_INLINE std::uint32_t set_up_edge(const EdgeInput& in, EdgeBatch<Value>& out, int k) {
+    const Tag d;
+    const Vec zero = hn::Zero(d), a = finer(in.a), b = finer(in.b);
+    const Vec last_x = number(in.last_x), last_y = number(in.last_y);
+    const Vec up_x = hn::Max(a, zero), up_y = hn::Max(b, zero);
+    const Vec down_x = hn::Min(a, zero), down_y = hn::Min(b, zero);
+    const auto over_block = [](Vec v) { return in_px(hn::Add(v, hn::Add(v, v))); };
+    const Vec rise = over_block(hn::Add(up_x, up_y)), fall = over_block(hn::Add(down_x, down_y));
+    const Vec range = hn::Sub(rise, fall);
+    const Vec unbiased = hn::Sub(weighted(a, b, finer(in.sample_x), finer(in.sample_y)),
+                                 weighted(a, b, finer(in.x), finer(in.y)));
+    const Vec first = hn::Sub(unbiased, hn::IfThenZeroElse(is_top_left(a, b), bias_of(unbiased, range)));
+    const Vec largest = hn::Add(first, in_px(weighted(up_x, up_y, last_x, last_y)));
+    const Vec smallest = hn::Add(first, in_px(weighted(down_x, down_y, last_x, last_y)));
+    const auto keep = [&](Vec v, Value* list) {  // 0 where the edge accepts the box
+      hn::StoreU(hn::IfThenElseZero(hn::Lt(smallest, zero), v), d, list + k);
     };
-    const auto a = finer(0), b = finer(1), x = finer(2), y = finer(3), sample_x = finer(4),
-               sample_y = finer(5), last_x = in[6], last_y = in[7];
-    const auto weighted = [&](auto p, auto q, auto x_of, auto y_of) {
-      return hn::Add(product_of(df, p, x_of), product_of(df, q, y_of));
-    };
-    const auto in_px = [&](auto v) {
-      if constexpr (std::is_integral_v<Value>)
-        return hn::ShiftLeft<contract::kSubBits + kFinerBits<Value>>(v);
-      else
-        return hn::Mul(v, hn::Set(df, Value{contract::kSub}));
-    };
-    const auto over_block = [&](auto v) { return in_px(hn::Add(v, hn::Add(v, v))); };
-    const auto zero = hn::Zero(df);
-    const auto top_left = is_top_left(a, b);
-    const auto up_x = hn::Max(a, zero), up_y = hn::Max(b, zero);
-    const auto down_x = hn::Min(a, zero), down_y = hn::Min(b, zero);
-    const auto rise = over_block(hn::Add(up_x, up_y)), fall = over_block(hn::Add(down_x, down_y));
-    const auto range = hn::Sub(rise, fall);
-    const auto unbiased = hn::Sub(weighted(a, b, sample_x, sample_y), weighted(a, b, x, y));
-    const auto first = hn::Sub(unbiased, hn::IfThenZeroElse(top_left, bias_of(df, unbiased, range)));
-    const auto most = hn::Add(first, in_px(weighted(up_x, up_y, last_x, last_y)));
-    const auto least = hn::Add(first, in_px(weighted(down_x, down_y, last_x, last_y)));
-    const auto crossed = hn::Lt(least, zero);
-    const auto kept = [&](auto v) { return hn::IfThenElseZero(crossed, v); };
-    // Steps of 64-bit integers fit 32 bits: times() counts their units.
-    const auto step = [&](auto v) {
-      if constexpr (std::is_same_v<Value, std::int64_t>)
-        return v;
-      else
-        return in_px(v);
-    };
-    hn::StoreU(kept(step(a)), df, out.x + k), hn::StoreU(kept(step(b)), df, out.y + k);
-    hn::StoreU(kept(first), df, out.first + k), hn::StoreU(kept(hn::Add(first, rise)), df, out.most + k);
-    hn::StoreU(kept(rise), df, out.rise + k), hn::StoreU(kept(range), df, out.range + k);
-    return hn::Lt(most, zero);
+    keep(step(a), out.x), keep(step(b), out.y), keep(first, out.first);
+    keep(rise, out.rise), keep(range, out.range);
+    return ~mask_bits(d, hn::Lt(largest, zero));
   }
 };
 

@@ -1,11 +1,10 @@
-// The tile's buffer, and code shared by the ways of drawing into it. The buffer stores blocks of 4 x 4
-// pixels, each as 16 consecutive integers: one AVX-512 vector, two of AVX2, four of SSE4 or
-// NEON.
+// The tile's buffer, and the drawing of small triangles.
+//
+// The buffer stores blocks of 4 x 4 pixels, each as 16 consecutive integers: one AVX-512 vector, two of AVX2,
+// four of SSE4 or NEON.
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 #include "edgewise/contract.h"
 #include "raster/edges/tile_setup-inl.h"
@@ -27,32 +26,67 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-constexpr int kBlockPixels = 16;
-constexpr int kVectors = kBlockPixels / kLanes;    // per block
-constexpr int kMaxBlocks = kMaxTile / kBlockSide;  // per side of a tile
-constexpr int kBlocksAtOnce = 16;                  // tested together, one lane per block
-static_assert(kBlocksAtOnce == kMaxBlocks && kBlocksAtOnce == kBlockPixels);
+constexpr int kVectors = kBlockPixels / kLanes;  // per block
+static_assert(kMaxBlocks == kBlockPixels);       // a row of blocks fills as many vectors as a block
 
 alignas(64) constexpr std::int32_t kLaneX[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kLaneY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-constexpr int kTilePixels = kMaxBlocks * kMaxBlocks * kBlockPixels;
-
 class Tile {
  public:
-  // Block by block, 16 pixels each. A coverage mask at the end of a plane also reads and writes back blocks
-  // behind the plane, unchanged, because it covers no pixel there. These are the first payload blocks, or
-  // kSpare.
+  // Block by block. A coverage mask at the end of a plane also reads and writes back blocks behind the plane:
+  // the first payload blocks, or kSpare.
   HWY_INLINE std::int32_t* depth() { return planes_; }
-  // Cleared only if the tile is not stored in whole vectors: else Payloads inserts the background.
-  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }
+  HWY_INLINE std::int32_t* payload() { return planes_ + kPixels; }
 
  private:
+  static constexpr int kPixels = kMaxBlocks * kMaxBlocks * kBlockPixels;
   static constexpr int kSpare = (kMaxBlocks + 1) * kBlockPixels;
-  alignas(64) std::int32_t planes_[2 * kTilePixels + kSpare];
+  alignas(64) std::int32_t planes_[2 * kPixels + kSpare];
 
  public:
   HiZ<kMaxBlocks, kMaxBlocks> hiz;
+};
+
+// Sets zmax to the farthest depth that a block holds. Returns whether any block's zmax is below kDepthClear.
+inline bool load_hiz(const TileTask& task, Tile& tile) {
+  const D d;
+  const int columns = (task.width() + kBlockSide - 1) / kBlockSide,
+            rows = (task.height() + kBlockSide - 1) / kBlockSide;
+  V least = hn::Set(d, wrap(kDepthClear));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const std::int32_t* const block = tile.depth() + (row * kMaxBlocks + column) * kBlockPixels;
+      V most = hn::Load(d, block);
+      for (int p = 1; p < kVectors; ++p) most = hn::Max(most, hn::Load(d, block + p * kLanes));
+      most = hn::MaxOfLanes(d, most);
+      least = hn::Min(least, most);
+      *tile.hiz.at(column, row) = hn::GetLane(most);
+    }
+  return hn::GetLane(least) < wrap(kDepthClear);
+}
+
+HWY_INLINE hn::Mask<D> not_negative(V v) {
+  return hn::Gt(v, hn::Set(D{}, -1));
+}
+
+// Depth-tests a vector of a block's pixels and writes those that are covered and nearer.
+HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
+  const auto wins = hn::And(covered, hn::Lt(z, hn::Load(D{}, tile.depth() + at)));
+  replace(tile.depth() + at, wins, z);
+  replace(tile.payload() + at, wins, payload);
+}
+
+// The values of triangle k's linear function at the 16 pixels of a block, relative to the block's first
+// pixel.
+template <class Numbers>
+struct Values16 {
+  typename Numbers::Vector v[kVectors];
+  HWY_INLINE Values16(const Linear<typename Numbers::Value>& f, int k) {
+    for (int p = 0; p < kVectors; ++p)
+      v[p] = Numbers::add(Numbers::times(hn::Load(D{}, kLaneX + p * kLanes), f.x[k]),
+                          Numbers::times(hn::Load(D{}, kLaneY + p * kLanes), f.y[k]));
+  }
 };
 
 // A list to which the selected lanes of a vector are appended. The memory needs kLanes spare entries.
@@ -65,150 +99,80 @@ struct List {
   }
 };
 
-// The values of a linear function at the 16 pixels of a block.
-template <class Lanes>
-struct Values16 {
-  typename Lanes::Vector v[kVectors];
-};
-// Relative to the value at the block's first pixel. `x`, `y`: steps per pixel.
-template <class Lanes>
-HWY_INLINE Values16<Lanes> over_block(const typename Lanes::Value* x, const typename Lanes::Value* y) {
-  const D d;
-  Values16<Lanes> out;
-  for (int i = 0; i < kVectors; ++i)
-    out.v[i] = Lanes::add(Lanes::times(hn::Load(d, kLaneX + i * kLanes), *x),
-                          Lanes::times(hn::Load(d, kLaneY + i * kLanes), *y));
-  return out;
-}
+// Triangles whose boxes are at most 4 x 4 blocks. All blocks of a triangle are tested at once, one lane per
+// block. The candidate blocks of many triangles go into one list: the number per triangle is hard to predict
+// for a branch predictor, but a loop over a list is not.
+template <class Numbers>
+class SmallTriangles {
+ public:
+  static constexpr int kSide = 4;  // blocks
+  explicit SmallTriangles(Tile& tile) : tile_(tile) {}
 
-// Stores the lanes of a mask. With AVX-512, which has mask registers, a masked store is faster.
-HWY_INLINE void replace(std::int32_t* at, hn::Mask<D> where, V v) {
-#if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
-  hn::BlendedStore(v, where, D{}, at);
-#else
-  hn::Store(hn::IfThenElse(where, v, hn::Load(D{}, at)), D{}, at);
-#endif
-}
-HWY_INLINE hn::Mask<D> inside(V outside) {
-  return hn::Gt(outside, hn::Set(D{}, -1));
-}
-// Depth-tests a vector of a block's pixels and writes those that are covered and nearer.
-HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
-  const auto wins = hn::And(covered, hn::Lt(z, hn::Load(D{}, tile.depth() + at)));
-  replace(tile.depth() + at, wins, z);
-  replace(tile.payload() + at, wins, payload);
-}
-// The same, but stores whole depth vectors. In a mesh, the next small triangle often loads the same block,
-// and a load cannot be forwarded from a masked store: it waits until the store has reached the cache.
-HWY_INLINE void write_whole(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
-  const V old_z = hn::Load(D{}, tile.depth() + at);
-  const auto wins = hn::And(covered, hn::Lt(z, old_z));
-  hn::Store(hn::IfThenElse(wins, z, old_z), D{}, tile.depth() + at);
-  replace(tile.payload() + at, wins, payload);
-}
-
-#if HWY_TARGET != HWY_SCALAR
-constexpr int kBlocksAcross = kLanes / kBlockSide;  // blocks whose pixel rows fill one vector
-
-// Two neighbouring pixel rows of kBlocksAcross neighbouring blocks. `from`: index of the first row's first
-// pixel.
-template <typename Pixels>
-HWY_INLINE void two_rows_of_blocks(const Pixels& pixels, int from, V& upper, V& lower) {
-  const D d;
-#if HWY_MAX_BYTES == 16
-  upper = pixels(d, from);
-  lower = pixels(d, from + kBlockSide);
-#elif HWY_TARGET == HWY_AVX2
-  const V left = pixels(d, from), right = pixels(d, from + kBlockPixels);
-  upper = hn::ConcatLowerLower(d, right, left);
-  lower = hn::ConcatUpperUpper(d, right, left);
-#else
-  const hn::Half<D> half;
-  const auto of_blocks = [&](int first, int second) {
-    return hn::Combine(d, pixels(half, from + second * kBlockPixels),
-                       pixels(half, from + first * kBlockPixels));
-  };
-  const V even = of_blocks(0, 2), odd = of_blocks(1, 3);
-  upper = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd), even);
-  lower = hn::OddEvenBlocks(odd, hn::SwapAdjacentBlocks(even));
-#endif
-}
-#endif
-
-// The part of a tile that is stored to the frame in whole vectors, two rows at a time: nothing if columns at
-// the left or rows at the top are not drawn. The rest is copied without a test for background, so the tile's
-// payload must be cleared where `all` is false.
-struct InVectors {
-  int width = 0, height = 0;  // px
-  bool all;
-  explicit InVectors(const TileTask& task)
-      : InVectors(task.left(), task.top(), task.width(), task.height()) {}
-  InVectors(int left, int top, int tile_width, int tile_height) {
-    if (kLanes > 1 && left == 0 && top == 0) width = tile_width & -kLanes, height = tile_height & -2;
-    all = width == tile_width && height == tile_height;
+  HWY_INLINE void add(const Batch<Numbers>& batch, int k) {
+    const D d;
+    if (used_ == kSlots) draw();
+    const int slot = used_++ * kBlockPixels;
+    const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]),
+            last_row = hn::Set(d, batch.by1[k] - batch.by0[k]);
+    const Values16<Numbers> edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
+    const Values16<Int32Numbers> depth_in(batch.depth, k);
+    const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
+    for (int p = 0; p < kVectors; ++p) {
+      const int lane = p * kLanes;
+      // The blocks of the square are arranged like the pixels of a block, at four times the distance.
+      const auto store_values = [&](auto numbers, auto offset, auto first, auto& values) {
+        const auto at = numbers.add(numbers.set(first), numbers.four_times(offset));
+        numbers.store_values(offset, values.in_block + slot + lane);
+        numbers.store_values(at, values.at_block + slot + lane);
+        return at;
+      };
+      const auto largest = [&](int i) {
+        const auto at = store_values(Numbers{}, edge_in[i].v[p], batch.edge[i].first[k], edge_[i]);
+        return Numbers::add(at, Numbers::set(batch.edge[i].rise[k]));
+      };
+      store_values(Int32Numbers{}, depth_in.v[p], batch.depth.first[k], depth_);
+      const V column = hn::Load(d, kLaneX + lane), row = hn::Load(d, kLaneY + lane);
+      const auto beside = hn::Or(hn::Gt(column, last_column), hn::Gt(row, last_row));
+      const auto candidate = not_negative(Numbers::any_negative(largest(0), largest(1), largest(2)));
+      const V block = hn::Add(hn::Mul(row, hn::Set(d, kMaxBlocks)), column);
+      const V entry = hn::Add(hn::ShiftLeft<16>(block), counting_from(lane));
+      list_.append(hn::Add(entry, hn::Set(d, first_block << 16 | slot)), hn::AndNot(beside, candidate));
+    }
+    payload_[slot / kBlockPixels] = batch.payload[k];
   }
-};
 
-// The index of a pixel in a plane of the tile's buffer.
-HWY_INLINE int at_pixel(int x, int y) {
-  return y / kBlockSide * kMaxBlocks * kBlockPixels + x / kBlockSide * kBlockPixels +
-         y % kBlockSide * kBlockSide + x % kBlockSide;
-}
-
-// Calls copy(pixels, in_buffer, count) for the pixels of a row from column x on, block by block: the first of
-// `count` in the frame, and its index in the buffer.
-template <typename Copy>
-HWY_INLINE void for_each_block_of_row(const FramePlane& plane, int x, int y, Copy&& copy) {
-  for (int end; x < plane.width; x = end) {
-    end = std::min((x | (kBlockSide - 1)) + 1, plane.width);
-    copy(plane.row(y) + x, at_pixel(x, y), end - x);
-  }
-}
-// Copies up to kBlockSide pixels.
-HWY_INLINE void copy_pixels(std::int32_t* to, const std::int32_t* from, int count) {
-  if (count == kBlockSide)
-    std::memcpy(to, from, kBlockSide * sizeof *to);  // a constant size needs no call
-  else
-    std::memcpy(to, from, static_cast<std::size_t>(count) * sizeof *to);
-}
-
-// Loads blocks from rows.
-inline void read_blocks(const FramePlane& from, std::int32_t* buffer) {
-  for (int y = from.top; y < from.height; ++y)
-    for_each_block_of_row(from, from.left, y, [&](const std::int32_t* pixels, int in_buffer, int count) {
-      copy_pixels(buffer + in_buffer, pixels, count);
-    });
-}
-
-// Stores blocks as rows. Each row is written to its end before the next: processors fetch neighbouring cache
-// lines together, and lines of several rows often compete for the same cache sets.
-template <typename Pixels>
-void write_blocks(const FramePlane& to, const Pixels& pixels) {
-  const InVectors in_vectors(to.left, to.top, to.width, to.height);
-#if HWY_TARGET != HWY_SCALAR
-  constexpr int kWhole = kMaxTile / kLanes;
-  write_to(to, [&](const auto& store) {
-    const auto write_two_rows = [&](int y, int count) {
-      std::int32_t *const upper_row = to.row(y), *const lower_row = to.row(y + 1);
-      V lower[kWhole];
-      for (int i = 0; i < count; ++i) {
-        V upper;
-        two_rows_of_blocks(pixels, at_pixel(i * kLanes, y), upper, lower[i]);
-        store(upper, upper_row + i * kLanes);
+  HWY_INLINE void draw() {
+    for (int n = 0; n < list_.length; ++n) {
+      const int block = list_.at[n] >> 16, in_slots = list_.at[n] & 0xFFFF, slot = in_slots / kBlockPixels;
+      for (int p = 0; p < kVectors; ++p) {
+        const auto value = [&](auto numbers, const auto& values) {
+          return numbers.add(numbers.set(values.at_block[in_slots]),
+                             numbers.load_values(values.in_block + slot * kBlockPixels + p * kLanes));
+        };
+        const auto edge = [&](int i) { return value(Numbers{}, edge_[i]); };
+        write(tile_, block * kBlockPixels + p * kLanes,
+              not_negative(Numbers::any_negative(edge(0), edge(1), edge(2))), value(Int32Numbers{}, depth_),
+              hn::Set(D{}, payload_[slot]));
       }
-      for (int i = 0; i < count; ++i) store(lower[i], lower_row + i * kLanes);
-    };
-    for (int y = 0; y < in_vectors.height; y += 2)
-      to.width == kMaxTile ? write_two_rows(y, kWhole) : write_two_rows(y, to.width / kLanes);
-  });
-#endif
-  if (in_vectors.all) return;
-  for (int y = to.top; y < to.height; ++y)
-    for_each_block_of_row(to, y < in_vectors.height ? in_vectors.width : to.left, y,
-                          [&](std::int32_t* row, int in_buffer, int count) {
-                            copy_pixels(row, pixels.buffer + in_buffer, count);
-                          });
-}
+    }
+    used_ = list_.length = 0;
+  }
+
+ private:
+  static constexpr int kSlots = 16;
+  template <typename Value>
+  struct alignas(64) SlotValues {
+    Value at_block[kSlots * kBlockPixels], in_block[kSlots * kBlockPixels];
+  };
+  Tile& tile_;
+  int used_ = 0;
+  SlotValues<typename Numbers::Value> edge_[3];
+  SlotValues<std::int32_t> depth_;
+  std::int32_t payload_[kSlots];
+  // the block in the tile << 16 | slot * 16 + the block's index in the square
+  std::int32_t candidates_[(kSlots + 1) * kBlockPixels];
+  List list_{candidates_};
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise

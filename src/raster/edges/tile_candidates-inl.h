@@ -1,4 +1,6 @@
-// Draws the candidate blocks of a large triangle from a list.
+// Draws large triangles. Coarse rejection tests a row of blocks at once and lists the candidates, the blocks
+// that are neither outside an edge nor occluded. Then the list is drawn: the number of blocks per triangle is
+// hard to predict for a branch predictor, but a loop over a list is not.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -22,6 +24,30 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
+// Whether triangle k may cover a whole block: inside a triangle an edge value lies between 0 and twice the
+// area, so its range over the block must not exceed that (claim may_fill_blocks in proofs/tile_reject.smt2).
+template <class Numbers>
+HWY_INLINE bool may_fill_blocks(const Batch<Numbers>& batch, int k) {
+  return std::none_of(batch.edge, batch.edge + 3, [&](const auto& edge) {
+    return Numbers::exceeds(edge.range[k], batch.twice_area_px2[k]);
+  });
+}
+
+// A linear function of the pixel position, at the first pixels of a row of blocks, in kWidth vectors.
+template <class Numbers, int kWidth>
+struct Row {
+  using Value = typename Numbers::Value;
+  typename Numbers::Vector v[std::size_t{kWidth}], step;
+  HWY_INLINE Row(const Linear<Value>& f, int k, typename Numbers::Vector first) {
+    for (int p = 0; p < kWidth; ++p)
+      v[p] = Numbers::add(first, Numbers::times(hn::ShiftLeft<2>(counting_from(p * kLanes)), f.x[k]));
+    step = Numbers::times(hn::Set(D{}, kBlockSide), f.y[k]);
+  }
+  HWY_INLINE void next() {
+    for (auto& value : v) value = Numbers::add(value, step);
+  }
+};
+
 // The candidate blocks of triangle k of a batch, in the order of the tile's blocks. Offsets count blocks of
 // the tile from the first block of the triangle's box.
 struct Candidates {
@@ -29,43 +55,83 @@ struct Candidates {
   int length, k;
 };
 
-template <class Arithmetic>
-HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Arithmetic>& batch, const Candidates& candidates) {
+// Lists the candidate blocks of triangle k, whose box is at most kWidth vectors of blocks wide. With HiZ,
+// also lowers the zmax of the blocks that it covers: there no pixel stays farther than its farthest depth.
+template <class Numbers, bool kHiZ, int kWidth>
+void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, Candidates& out) {
+  const D d;
+  const auto largest = [&](const auto& edge) {  // in a block
+    return Row<Numbers, kWidth>(edge, k,
+                                Numbers::add(Numbers::set(edge.first[k]), Numbers::set(edge.rise[k])));
+  };
+  Row<Numbers, kWidth> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
+  Row<Int32Numbers, kWidth> farthest(
+      batch.depth, k, hn::Add(hn::Set(d, batch.depth.first[k]), hn::Set(d, batch.depth_rise[k])));
+  Row<Int32Numbers, kWidth> nearest(batch.nearest, k, hn::Set(d, batch.nearest.first[k]));
+
+  const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
+  std::int32_t* zmax = tile.hiz.at(batch.bx0[k], batch.by0[k]);
+  V row_offset = hn::Zero(d);
+  List list{out.offset};
+  for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
+    for (int p = 0; p < kWidth; ++p) {
+      const V column = counting_from(p * kLanes), before_end = hn::Sub(last_column, column);
+      const auto in_box = [&](V negative) { return not_negative(hn::Or(negative, before_end)); };
+      auto candidate = in_box(Numbers::any_negative(edge[0].v[p], edge[1].v[p], edge[2].v[p]));
+      if constexpr (kHiZ) {
+        const auto smallest = [&](int i) {
+          return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].range[k]));
+        };
+        const auto covered = in_box(Numbers::any_negative(smallest(0), smallest(1), smallest(2)));
+        const V old_zmax = hn::LoadU(d, zmax + p * kLanes), own_zmax = farthest.v[p];
+        hn::StoreU(hn::IfThenElse(covered, hn::Min(old_zmax, own_zmax), old_zmax), d, zmax + p * kLanes);
+        candidate = hn::And(candidate, hn::Lt(nearest.v[p], old_zmax));
+      }
+      list.append(hn::Add(row_offset, column), candidate);
+    }
+    for (auto& e : edge) e.next();
+    if constexpr (kHiZ) farthest.next(), nearest.next();
+    zmax += kMaxBlocks, row_offset = hn::Add(row_offset, hn::Set(d, kMaxBlocks));
+  }
+  out.length = list.length, out.k = k;
+}
+
+// Draws a list of candidate blocks.
+template <class Numbers>
+void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& candidates) {
   const int length = candidates.length, k = candidates.k;
   if (length == 0) return;
   const D d;
-  const auto in_block = [&](const auto& edge) { return over_block<Arithmetic>(edge.x + k, edge.y + k); };
-  const Values16<Arithmetic> edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]),
-                                           in_block(batch.edge[2])};
-  const auto depth_in = over_block<Int32Arithmetic>(batch.depth.x + k, batch.depth.y + k);
+  const Values16<Numbers> edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
+  const Values16<Int32Numbers> depth_in(batch.depth, k);
   const V payload = hn::Set(d, batch.payload[k]);
   const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   for (int begin = 0; begin < length; begin += kLanes) {
     // Values at the blocks' first pixels, through memory: from AVX2 on, a load broadcasts one to all lanes
     // without the execution units for arithmetic and shuffles, which are the bottleneck.
     const V offset = hn::Load(d, candidates.offset + begin);
-    static_assert(kBlockSide == 1 << 2 && kMaxBlocks == 1 << 4);
+    static_assert(kMaxBlocks == 1 << 4);
     const V x = hn::ShiftLeft<2>(hn::And(offset, hn::Set(d, kMaxBlocks - 1)));
     const V y = hn::ShiftLeft<2>(hn::ShiftRight<4>(offset));
-    alignas(64) typename Arithmetic::Value edge_at[3][kLanes];
+    alignas(64) typename Numbers::Value edge_at[3][kLanes];
     alignas(64) std::int32_t depth_at[kLanes];
-    const auto store_first = [&](auto lanes, const auto& f, auto* at) {
-      lanes.store(lanes.add(lanes.set(f.first[k]), lanes.add(lanes.times(x, f.x[k]), lanes.times(y, f.y[k]))),
-                  at);
+    const auto store_first = [&](auto numbers, const auto& f, auto* at) {
+      const auto steps = numbers.add(numbers.times(x, f.x[k]), numbers.times(y, f.y[k]));
+      numbers.store_values(numbers.add(numbers.set(f.first[k]), steps), at);
     };
-    for (int i = 0; i < 3; ++i) store_first(Arithmetic{}, batch.edge[i], edge_at[i]);
-    store_first(Int32Arithmetic{}, batch.depth, depth_at);
+    for (int i = 0; i < 3; ++i) store_first(Numbers{}, batch.edge[i], edge_at[i]);
+    store_first(Int32Numbers{}, batch.depth, depth_at);
     const int count = std::min(kLanes, length - begin);
     for (int n = 0; n < count; ++n) {
       const int block = first_block + candidates.offset[begin + n];
-      const typename Arithmetic::Vector edge[3] = {
-          Arithmetic::set(edge_at[0][n]), Arithmetic::set(edge_at[1][n]), Arithmetic::set(edge_at[2][n])};
+      const typename Numbers::Vector edge[3] = {Numbers::set(edge_at[0][n]), Numbers::set(edge_at[1][n]),
+                                                Numbers::set(edge_at[2][n])};
       const V depth = hn::Set(d, depth_at[n]);
       for (int p = 0; p < kVectors; ++p) {
-        const auto value = [&](int i) { return Arithmetic::add(edge[i], edge_in[i].v[p]); };
+        const auto value = [&](int i) { return Numbers::add(edge[i], edge_in[i].v[p]); };
         write(tile, block * kBlockPixels + p * kLanes,
-              inside(Arithmetic::outside(value(0), value(1), value(2))), hn::Add(depth, depth_in.v[p]),
-              payload);
+              not_negative(Numbers::any_negative(value(0), value(1), value(2))),
+              hn::Add(depth, depth_in.v[p]), payload);
       }
     }
   }

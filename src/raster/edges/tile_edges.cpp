@@ -5,19 +5,16 @@
 //    once. Only the buffer's depths are cleared: pixels whose depth is still clear get the background.
 //    A tile that is drawn over is read into the buffer instead.
 // 2. The buffer is stored in blocks of 4 x 4 pixels, 16 consecutive integers: one AVX-512 vector, two of
-//    AVX2, four of SSE4 or NEON (tile_blocks-inl.h). 4 x 4 wastes fewer lanes on small triangles than 16 x 1.
-// 3. Triangles are set up for the tile, a vector at a time (tile_setup-inl.h, tile_arithmetic-inl.h). An edge
-//    that accepts the triangle's whole box becomes the constant 0; the others are stepped in int32 lanes
-//    (rule 5).
-// 4. Coarse rejection tests a row of blocks (tile_rows-inl.h) or, for small boxes, a square of blocks
-//    (tile_small-inl.h) at a time, one lane per block. Blocks outside an edge are rejected; in rows of
+//    AVX2, four of SSE4 or NEON. 4 x 4 wastes fewer lanes on small triangles than 16 x 1.
+// 3. Triangles are set up for the tile, a vector at a time (tile_setup-inl.h). An edge that accepts the
+//    triangle's whole box becomes the constant 0; the others are stepped in int32 lanes (rule 5).
+// 4. Coarse rejection tests a row of blocks (tile_candidates-inl.h) or, for small boxes, a square of blocks
+//    (tile_blocks-inl.h) at a time, one lane per block. Blocks outside an edge are rejected; in rows of
 //    blocks, so are occluded ones (HiZ, hiz-inl.h). Triangles that are occluded in the whole tile skip the
 //    test.
-// 5. Candidate blocks go into a list first (tile_candidates-inl.h): the number of blocks per triangle is hard
-//    to predict for a branch predictor, but a loop over a list is not. A large triangle's list is drawn
-//    after the next triangle's list is filled, so its length is known long before its loop begins.
+// 5. Candidate blocks go into lists, which are drawn in submission order (tile_painter-inl.h).
 // 6. Small triangles arrive as coverage masks, made by binning (mask_finder.cpp), and are drawn without a
-//    branch (tile_masks-inl.h).
+//    branch (tile_blocks-inl.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/edges/tile_edges.cpp"
 #include <hwy/foreach_target.h>

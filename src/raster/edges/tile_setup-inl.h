@@ -1,20 +1,19 @@
 // Sets triangles up for one tile, a vector of triangles at a time.
 //
-// `Arithmetic` sets up the edges (tile_arithmetic-inl.h); tile_depth-inl.h sets up the depths.
+// The kernel is a template on the numbers in which it computes edge functions. Here are the contract's;
+// lab/engine has others, to measure what exactness costs.
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <span>
 
 #include "core/lanes-inl.h"
 #include "edgewise/contract.h"
-#include "raster/binning/cell_boxes.h"
-#include "raster/edges/tile_arithmetic-inl.h"
-#include "raster/edges/tile_depth-inl.h"
 #include "raster/kernels.h"
+#include "raster/simd/depth_lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
+#include "raster/tile_store-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -30,133 +29,166 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
+constexpr std::int32_t wrap(std::uint32_t v) {
+  return static_cast<std::int32_t>(v);
+}
+
+// Linear functions of the pixel position, one per triangle of a batch.
+template <typename Value>
+struct Linear {
+  Value x[kBatch], y[kBatch];  // steps per pixel
+  Value first[kBatch];         // at the first pixel of the triangle's first block
+};
+template <typename Value>
+struct EdgeBatch : Linear<Value> {
+  Value rise[kBatch];   // the largest value in a block less that at the block's first pixel
+  Value range[kBatch];  // the largest value in a block less the smallest
+};
+
+// The triangles' boxes in the tile, extended to whole blocks, so that an edge that accepts a box accepts
+// every pixel that is tested.
+struct BlockBoxLanes {
+  V32 sample_x, sample_y;  // the first pixel's sample, sub-units
+  V32 last_x, last_y;      // the last pixel, from the first, px
+};
+
+// Vectors of kLanes values of a linear function, in wrapping int32.
+struct Int32Numbers {
+  using Value = std::int32_t;
+  using Vector = V;
+  static HWY_INLINE V set(Value v) { return hn::Set(D{}, v); }
+  static HWY_INLINE V load_values(const Value* at) { return hn::Load(D{}, at); }
+  static HWY_INLINE void store_values(V v, Value* at) { hn::Store(v, D{}, at); }
+  static HWY_INLINE V add(V a, V b) { return hn::Add(a, b); }
+  static HWY_INLINE V subtract(V a, V b) { return hn::Sub(a, b); }
+  static HWY_INLINE V times(V pixels, Value step) { return hn::Mul(pixels, hn::Set(D{}, step)); }
+  static HWY_INLINE V four_times(V v) { return hn::ShiftLeft<2>(v); }
+  // The sign bit is set where a value is negative.
+  static HWY_INLINE V any_negative(V e0, V e1, V e2) { return hn::Or(hn::Or(e0, e1), e2); }
+};
+
+HWY_INLINE V32 thrice(V32 v) {
+  static_assert(kBlockSide - 1 == 3);
+  return hn::Add(v, hn::Add(v, v));
+}
+
+// The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
+// >= 0. Other numbers have the same members.
+struct ContractNumbers : Int32Numbers {
+  // Whether a value's range over a block, in square pixels, exceeds twice the triangle's area.
+  static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
+    return range >> kSubBits > twice_area_px2;
+  }
+
+  // Sets up the edges of a vector of triangles as entries k … An edge that accepts the box becomes the
+  // constant 0. Returns the bits of the triangles whose box no edge rejects.
+  static HWY_INLINE std::uint32_t set_up(const TileTask&, const TriangleLanes& t, const Area& area,
+                                         const BlockBoxLanes& box, EdgeBatch<Value> (&out)[3], int k) {
+    const V32 zero = hn::Zero(D32{});
+    V64 rejected = hn::Zero(D64{});
+    for (int i = 0; i < 3; ++i) {
+      const EdgeLanes edge(t, area, i, box.sample_x, box.sample_y);
+      // From the first sample, the value grows to `largest` and falls to `smallest` in the box.
+      const V64 growth =
+          hn::Add(product(hn::Max(edge.a, zero), box.last_x), product(hn::Max(edge.b, zero), box.last_y));
+      const V64 across = hn::Add(product(edge.a, box.last_x), product(edge.b, box.last_y));
+      const V64 largest = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(growth));
+      const V64 smallest = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(hn::Sub(across, growth)));
+      rejected = hn::Or(rejected, largest);
+      const auto accepted = hn::Not(hn::Lt(smallest, hn::Zero(D64{})));
+      const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenZeroElse(accepted, v)); };
+      const V32 x = unless_accepted(as64(edge.a)), y = unless_accepted(as64(edge.b));
+      store(x, out[i].x + k), store(y, out[i].y + k);
+      store(unless_accepted(shift_right<kSubBits>(edge.value)), out[i].first + k);
+      store(thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero))), out[i].rise + k);
+      store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), out[i].range + k);
+    }
+    return ~mask_bits(hn::Lt(rejected, hn::Zero(D64{})));
+  }
+};
+
 // A batch of triangles, set up for one tile.
-template <class Arithmetic>
-struct alignas(64) Batch {
-  Linear<typename Arithmetic::Value> edge[3];
-  Linear<std::int32_t> depth;
-  NearestDepth nearest;
+template <class Numbers>
+struct Batch {
+  EdgeBatch<typename Numbers::Value> edge[3];
+  Linear<std::int32_t> depth;       // rule 6, in wrapping int32
+  std::int32_t depth_rise[kBatch];  // as in EdgeBatch
+  // For HiZ: no pixel that the triangle covers in a block is nearer than this function of the block's first
+  // pixel, and none in the tile is nearer than `least`.
+  Linear<std::int32_t> nearest;
+  std::int32_t least[kBatch];
   std::int32_t payload[kBatch];
-  std::int32_t twice_area_px[kBatch];
+  std::int32_t twice_area_px2[kBatch];
   std::int32_t bx0[kBatch], by0[kBatch], bx1[kBatch], by1[kBatch];  // the box in blocks, inclusive
 };
 
-// Scalar set-up of one triangle. Returns false if it covers no pixel of the tile.
-template <class Arithmetic>
-bool set_up_one(const TileTask& task, std::uint32_t index, Batch<Arithmetic>& out, int k) {
-  const ScreenTriangle& triangle = task.triangles[index];
-  const int size = task.size();
-  const PixelBox box = pixel_box(triangle, task.part.frame.width, task.part.frame.height);
-  const int x0 = std::max(box.x0 - task.x0, 0), x1 = std::min(box.x1 - task.x0, size);
-  const int y0 = std::max(box.y0 - task.y0, 0), y1 = std::min(box.y1 - task.y0, size);
-  if (x0 >= x1 || y0 >= y1) return false;
-  const Oriented t = orient(triangle);
-  if (t.area == 0) return false;
-  const int bx0 = x0 / kBlockSide, bx1 = (x1 - 1) / kBlockSide, by0 = y0 / kBlockSide,
-            by1 = (y1 - 1) / kBlockSide;
+// Sets up the depths of a vector of triangles as entries k … of the batch. Returns the bits of those whose
+// planes are exact.
+template <class Numbers>
+HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes& t, const Area& area,
+                                      V32 left, V32 top, const BlockBoxLanes& box, Batch<Numbers>& out,
+                                      int k) {
+  const V32 zero = hn::Zero(D32{});
+  const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
+  const DepthLanes depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
+  const V32 first = depth.at(hn::Add(left, set32(in_cell_x)), hn::Add(top, set32(in_cell_y)));
+  store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k), store(first, out.depth.first + k);
+  store(thrice(hn::Add(hn::Max(depth.x, zero), hn::Max(depth.y, zero))), out.depth_rise + k);
 
-  const int left = bx0 * kBlockSide, top = by0 * kBlockSide;
-  const BlockBox blocks{left, top, (bx1 - bx0 + 1) * kBlockSide - 1, (by1 - by0 + 1) * kBlockSide - 1};
-  if (!Arithmetic::set_up_one(task, t, blocks, out.edge, k)) return false;
-  set_up_one_depth(task, t, left, top, bx1 - bx0, by1 - by0, out, k);
-  out.payload[k] = wrap(triangle.payload);
-  out.twice_area_px[k] = static_cast<std::int32_t>(t.area >> 2 * kSubBits);
-  out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
-  return true;
+  const auto flat = depth.is_flat();
+  const V32 falls_x = hn::Min(depth.x, zero), falls_y = hn::Min(depth.y, zero);
+  const V32 in_block = hn::Add(first, thrice(hn::Add(falls_x, falls_y)));
+  const V32 in_box =
+      hn::Add(first, lower(hn::Add(product(falls_x, box.last_x), product(falls_y, box.last_y))));
+  const V32 nearest = nearest_vertex(t);
+  store(hn::IfThenElseZero(flat, depth.x), out.nearest.x + k);
+  store(hn::IfThenElseZero(flat, depth.y), out.nearest.y + k);
+  store(hn::IfThenElse(flat, in_block, nearest), out.nearest.first + k);
+  store(hn::IfThenElse(flat, in_box, nearest), out.least + k);
+  return mask_bits(depth.exact);
 }
 
-#if HWY_TARGET != HWY_SCALAR
-
-template <class Arithmetic>
-struct HalfBatch {
-  typename Arithmetic::HalfEdges edges;
-  HalfDepth depth;
-  V32 payload, twice_area_px, bx0, by0, bx1, by1;
-  std::uint32_t alive, has_depth;  // one bit per triangle: not rejected; depth is valid
-};
-
-// set_up_one() for half a vector of triangles. Lanes whose bit in `has_depth` is 0 have no valid depth.
-template <class Arithmetic>
-HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, HalfBatch<Arithmetic>& out) {
-  const D64 d;
+// Sets up a vector of triangles as entries k … of the batch. Returns the bits of those that may cover a pixel
+// of the tile.
+template <class Numbers>
+HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices,
+                                       Batch<Numbers>& out, int k) {
   const TriangleLanes t = load(task.triangles, indices);
-  const BoxLanes box(t.x, t.y, {task.x0, task.y0, task.x0 + task.width(), task.y0 + task.height()});
-  const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
-  const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));
-  static_assert(kBlockSide == 1 << 2);
-  const V32 one = set32(1);
-  const V32 bx0 = hn::ShiftRight<2>(x0), bx1 = hn::ShiftRight<2>(hn::Sub(x1, one));
-  const V32 by0 = hn::ShiftRight<2>(y0), by1 = hn::ShiftRight<2>(hn::Sub(y1, one));
-  const V32 left = hn::ShiftLeft<2>(bx0), top = hn::ShiftLeft<2>(by0);
-  const auto last = [&](V32 b0, V32 b1) {
-    return hn::Sub(hn::ShiftLeft<2>(hn::Add(hn::Sub(b1, b0), one)), one);
-  };
-
-  const V64 zero = hn::Zero(d);
   const Area area = area_of(t);
-  // A lane whose sign bit is set is rejected.
-  V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(box.filled)))),
-                    hn::VecFromMask(d, hn::Eq(area.value, zero)));
-  const BlockBoxLanes blocks{left, top, last(bx0, bx1), last(by0, by1)};
-  dead = hn::Or(dead, Arithmetic::set_up_half(task, t, area, blocks, out.edges));
-
-  out.has_depth = set_up_half_depth(task, t, area, left, top, out.depth);
-  out.payload = t.payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
-  out.bx0 = bx0, out.by0 = by0, out.bx1 = bx1, out.by1 = by1;
-  out.alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
-}
-
-// Sets up triangles[indices[i]] for i = k … k + kLanes - 1. Bit i - k of the result is set if the triangle is
-// not rejected. From `count` on, indices are padding but must be valid; a half vector of padding is skipped.
-template <class Arithmetic>
-HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, int count,
-                                       Batch<Arithmetic>& out, int k) {
-  constexpr int kInHalf = kLanes / 2;
-  HalfBatch<Arithmetic> left, right;
-  set_up_half(task, indices + k, left);
-  if (k + kInHalf < count)
-    set_up_half(task, indices + k + kInHalf, right);
-  else
-    right = left, right.alive = 0;
-
-  const std::uint32_t kept = Arithmetic::store_edges(left.edges, right.edges, out.edge, k);
-  const auto store_both = [&](V32 l, V32 r, std::int32_t* list) {
-    const V v = both(l, r);
-    hn::Store(v, D{}, list + k);
-    return v;
+  const BoxLanes box(t.x, t.y, task.box());
+  const auto block = [](V32 px, int first_px) { return hn::ShiftRight<2>(hn::Sub(px, set32(first_px))); };
+  const V32 bx0 = block(box.x0, task.x0), bx1 = block(box.x1, task.x0 + 1);
+  const V32 by0 = block(box.y0, task.y0), by1 = block(box.y1, task.y0 + 1);
+  const V32 left = hn::ShiftLeft<2>(bx0), top = hn::ShiftLeft<2>(by0);
+  const auto sample = [](V32 px, int first_px) {
+    return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(sample_sub(first_px)));
   };
-  store_both(left.payload, right.payload, out.payload);
-  store_both(left.twice_area_px, right.twice_area_px, out.twice_area_px);
-  const V bx0 = store_both(left.bx0, right.bx0, out.bx0), bx1 = store_both(left.bx1, right.bx1, out.bx1);
-  const V by0 = store_both(left.by0, right.by0, out.by0), by1 = store_both(left.by1, right.by1, out.by1);
-  store_depth(left.depth, right.depth, hn::Sub(bx1, bx0), hn::Sub(by1, by0), out, k);
+  const auto last = [](V32 b0, V32 b1) {
+    return hn::Add(hn::ShiftLeft<2>(hn::Sub(b1, b0)), set32(kBlockSide - 1));
+  };
+  const BlockBoxLanes blocks{sample(left, task.x0), sample(top, task.y0), last(bx0, bx1), last(by0, by1)};
+  const std::uint32_t drawn = lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{}))) &
+                              Numbers::set_up(task, t, area, blocks, out.edge, k);
 
-  const std::uint32_t alive = (left.alive | right.alive << kInHalf) & kept;
-  const std::uint32_t has_depth = left.has_depth | right.has_depth << kInHalf;
-  for (std::uint32_t left_over = alive & ~has_depth; left_over != 0; left_over &= left_over - 1) {
-    const int lane = std::countr_zero(left_over);
-    set_up_one(task, indices[k + lane], out, k + lane);
+  const std::uint32_t exact = set_up_depth(task, t, area, left, top, blocks, out, k);
+  store(t.payload, out.payload + k);
+  store(lower(shift_right<2 * kSubBits>(area.value)), out.twice_area_px2 + k);
+  store(bx0, out.bx0 + k), store(by0, out.by0 + k), store(bx1, out.bx1 + k), store(by1, out.by1 + k);
+  for (std::uint32_t inexact = drawn & ~exact; inexact != 0; inexact &= inexact - 1) {
+    const int lane = std::countr_zero(inexact), at = k + lane;
+    const ScreenTriangle& triangle = task.triangles[indices[lane]];
+    const DepthPlane plane = make_depth(orient(triangle));
+    const std::uint32_t zx = plane.zx, zy = plane.zy;
+    out.depth.x[at] = wrap(zx), out.depth.y[at] = wrap(zy);
+    out.depth.first[at] =
+        wrap(plane.at(task.x0 + out.bx0[at] * kBlockSide, task.y0 + out.by0[at] * kBlockSide));
+    const auto rise = [](std::uint32_t step) { return wrap(step) > 0 ? (kBlockSide - 1) * step : 0; };
+    out.depth_rise[at] = wrap(rise(zx) + rise(zy));
+    out.nearest.x[at] = out.nearest.y[at] = 0;
+    out.nearest.first[at] = out.least[at] =
+        wrap(std::min({triangle.z[0], triangle.z[1], triangle.z[2]}) - kDepthError);
   }
-  return alive;
-}
-
-#endif
-
-// Sets up triangles[indices[i]] for all i. Bit i of the result is set if the triangle is not rejected.
-template <class Arithmetic>
-std::uint32_t set_up(const TileTask& task, std::span<const std::uint32_t> indices, Batch<Arithmetic>& out) {
-  const int count = static_cast<int>(indices.size());
-#if HWY_TARGET == HWY_SCALAR
-  std::uint32_t alive = 0;
-  for (int k = 0; k < count; ++k)
-    alive |= std::uint32_t{set_up_one(task, indices[static_cast<std::size_t>(k)], out, k)} << k;
-  return alive;
-#else
-  const auto set_up_some = [&](const std::uint32_t* padded, int k) {
-    return BatchBits{set_up_vector(task, padded, count, out, k), 0};
-  };
-  return set_up_batch<kLanes>(indices, set_up_some).drawn;
-#endif
+  return drawn;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -28,15 +28,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 // counts as near and is conservative. For steeper planes the bound is the nearest vertex.
 constexpr std::int32_t kSteep = 1 << 24;
 
-#if HWY_TARGET != HWY_SCALAR
-
 // g n mod 2^64, for n >= 0.
-HWY_INLINE V64 product(V64 g, V64 n) {
+HWY_INLINE V64 wrapped_product(V64 g, V64 n) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Mul(g, n);
+#else
   const hn::Repartition<std::uint32_t, D64> u32;
   const auto gl = hn::BitCast(u32, g), gh = hn::BitCast(u32, upper(g)), nl = hn::BitCast(u32, n),
              nh = hn::BitCast(u32, upper(n));
   const auto cross = hn::Add(hn::MulEven(gl, nh), hn::MulEven(gh, nl));
   return hn::BitCast(D64{}, hn::Add(hn::MulEven(gl, nl), hn::ShiftLeft<32>(cross)));
+#endif
 }
 
 struct Gradient {
@@ -51,7 +53,7 @@ HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
   const auto q = hn::Mul(hn::ConvertTo(df, n), scaled_inverse);
   const auto rounder = hn::Set(df, 0x1.8p52);  // one ulp is 1, so adding it rounds to integers
   const V64 g = hn::Sub(hn::BitCast(d, hn::Add(q, rounder)), hn::BitCast(d, rounder));
-  const V64 rest = hn::Sub(hn::ShiftLeft<24>(n), product(g, area));
+  const V64 rest = hn::Sub(hn::ShiftLeft<24>(n), wrapped_product(g, area));
   return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
 }
 
@@ -60,7 +62,10 @@ struct DepthLanes {
   V64 gx, gy;           // rule 6
   V64 start;            // 2^24 (base of the cell + 1/2), before it is rounded down
   hn::Mask<D64> exact;  // where the gradients are exact
-  HWY_INLINE V32 base() const { return lower(shift_right<24>(start)); }
+  // At pixels of the cell, counted from its first.
+  HWY_INLINE V32 at(V32 px, V32 py) const {
+    return lower(hn::Add(shift_right<24>(start), hn::Add(product(x, px), product(y, py))));
+  }
   // Where both steps are below kSteep in size.
   HWY_INLINE hn::Mask<D32> is_flat() const {
     const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
@@ -94,7 +99,7 @@ HWY_INLINE DepthLanes depth_lanes(const PlaneLanes& p) {
   const V64 shift = hn::ShiftLeft<13>(hn::Add(hn::And(rounded_x, fraction), hn::And(rounded_y, fraction)));
   const V64 half = hn::Set(d, (std::int64_t{1} << 23) - (std::int64_t{0x10000} << 13));
   const V64 start = hn::Add(hn::Add(hn::Add(anchor, half), shift),
-                            hn::Add(product(gx.g, p.from_x), product(gy.g, p.from_y)));
+                            hn::Add(wrapped_product(gx.g, p.from_x), wrapped_product(gy.g, p.from_y)));
   return {lower(shift_right<16>(rounded_x)), lower(shift_right<16>(rounded_y)), gx.g, gy.g, start,
           hn::And(gx.exact, gy.exact)};
 }
@@ -109,8 +114,6 @@ HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int 
                       hn::Sub(set32(contract::sample_sub(cell_px)), anchor.x),
                       hn::Sub(set32(contract::sample_sub(cell_py)), anchor.y), anchor.z});
 }
-
-#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise

@@ -31,8 +31,8 @@ class HiZ {
   // `width`, `height`: the part of the tile in the frame, px. Blocks outside it get zmax 0, so they occlude
   // all.
   void clear(int width, int height) {
-    const auto blocks = [](int px, int most) {
-      return (px * most + contract::kMaxTile - 1) / contract::kMaxTile;
+    const auto blocks = [](int px, int of_tile) {
+      return (px * of_tile + contract::kMaxTile - 1) / contract::kMaxTile;
     };
     const int columns = blocks(width, kColumns), rows = blocks(height, kRows);
     std::fill(std::begin(zmax_), std::end(zmax_), static_cast<std::int32_t>(contract::kDepthClear));
@@ -54,17 +54,17 @@ class HiZ {
   static constexpr std::size_t kCapacity = kBlocks + kColumns;
 
   // Whether the zmax of a block exceeds `nearest`. If so, stores the block with the largest zmax.
-  HWY_NOINLINE bool any_zmax_behind(std::int32_t nearest) {
+  bool any_zmax_behind(std::int32_t nearest) {
     const D d;
-    V most = hn::Load(d, zmax_), begin = hn::Zero(d);
+    V largest = hn::Load(d, zmax_), begin = hn::Zero(d);
     for (int i = kLanes; i < kBlocks; i += kLanes) {
       const V here = hn::Load(d, zmax_ + i);
-      begin = hn::IfThenElse(hn::Lt(most, here), hn::Set(d, i), begin);
-      most = hn::Max(most, here);
+      begin = hn::IfThenElse(hn::Lt(largest, here), hn::Set(d, i), begin);
+      largest = hn::Max(largest, here);
     }
-    const V max_zmax = hn::MaxOfLanes(d, most);
+    const V max_zmax = hn::MaxOfLanes(d, largest);
     if (nearest >= hn::GetLane(max_zmax)) return false;
-    const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(most, max_zmax)));
+    const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(largest, max_zmax)));
     alignas(64) std::int32_t begins[kLanes];
     hn::Store(begin, d, begins);
     farthest_block_ = begins[lane] + static_cast<int>(lane);
@@ -72,7 +72,7 @@ class HiZ {
   }
 
   alignas(64) std::int32_t zmax_[kCapacity];
-  int farthest_block_;  // had the largest zmax at the last search: decides most calls of occludes()
+  int farthest_block_;  // had the largest zmax at the last search: decides largest calls of occludes()
 };
 
 }  // namespace HWY_NAMESPACE

@@ -19,43 +19,57 @@
 #define EDGEWISE_TRIANGLE_LANES_INL_H
 #endif
 
-#if HWY_TARGET != HWY_SCALAR  // the scalar target has no halves of lanes
-
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// D32 is D. It has two lanes per triangle, of which only the lower one is used.
 using D64 = hn::CappedTag<std::int64_t, 8>;
 using U64 = hn::RebindToUnsigned<D64>;
 using F64 = hn::RebindToFloat<D64>;
-using D32 = hn::Repartition<std::int32_t, D64>;
-using Low32 = hn::Rebind<std::uint32_t, D64>;
+using D32 = D;  // two lanes per triangle, of which only the lower one is used; one for the scalar target
 using V64 = hn::Vec<D64>;
 using V32 = hn::Vec<D32>;
+using Packed = hn::Rebind<std::int32_t, D64>;  // one 32-bit lane per triangle
 
-HWY_INLINE V32 lower(V64 v) {
-  return hn::BitCast(D32{}, v);
-}
-HWY_INLINE V32 upper(V64 v) {
-  return hn::BitCast(D32{}, hn::ShiftRight<32>(hn::BitCast(U64{}, v)));
-}
-HWY_INLINE V64 as64(V32 v) {
-  return hn::BitCast(D64{}, v);
-}
 template <int kBits>
 HWY_INLINE V64 shift_right(V64 v) {
   return hn::BitCast(D64{}, hn::ShiftRight<kBits>(hn::BitCast(U64{}, v)));
 }
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE V32 lower(V64 v) {
+  return hn::Set(D32{}, static_cast<std::int32_t>(hn::GetLane(v)));
+}
+HWY_INLINE V64 as64(V32 v) {
+  return hn::PromoteTo(D64{}, v);
+}
+HWY_INLINE hn::Vec<Packed> packed(V32 v) {
+  return v;
+}
+#else
+HWY_INLINE V32 lower(V64 v) {
+  return hn::BitCast(D32{}, v);
+}
+HWY_INLINE V64 as64(V32 v) {  // the upper half is unspecified
+  return hn::BitCast(D64{}, v);
+}
+HWY_INLINE hn::Vec<Packed> packed(V32 v) {
+  const hn::Rebind<std::uint32_t, D64> d;
+  return hn::BitCast(Packed{}, hn::TruncateTo(d, hn::BitCast(U64{}, as64(v))));
+}
+#endif
+HWY_INLINE V32 upper(V64 v) {
+  return lower(shift_right<32>(v));
+}
 HWY_INLINE V32 set32(std::int32_t v) {
   return hn::Set(D32{}, v);
 }
+// The exact product.
 HWY_INLINE V64 product(V32 a, V32 b) {
   return hn::MulEven(a, b);
 }
 // g d mod 2^64. With g = low + 2^32 high, low signed: high is g's upper half, rounded.
-HWY_INLINE V64 product(V64 g, V32 d) {
+HWY_INLINE V64 wrapped_product(V64 g, V32 d) {
   const V32 high = upper(hn::Add(g, hn::Set(D64{}, std::int64_t{1} << 31)));
   return hn::Add(product(lower(g), d), hn::ShiftLeft<32>(product(high, d)));
 }
@@ -66,24 +80,29 @@ HWY_INLINE V32 flipped(V32 v, V32 flip) {
 HWY_INLINE V64 flipped(V64 v, V64 flip) {
   return hn::Sub(hn::Xor(v, flip), flip);
 }
-HWY_INLINE void store(V64 v, std::int32_t* at) {
-  const Low32 d;
-  hn::StoreU(hn::TruncateTo(d, hn::BitCast(U64{}, v)), d, reinterpret_cast<std::uint32_t*>(at));
-}
 HWY_INLINE void store(V32 v, std::int32_t* at) {
-  store(as64(v), at);
+  hn::StoreU(packed(v), Packed{}, at);
 }
 
-// Bit i belongs to lane i.
-HWY_INLINE std::uint32_t mask_bits(hn::Mask<D64> mask) {
+// Bit i belongs to lane i. For masks of at most eight lanes.
+template <class Tag>
+HWY_INLINE std::uint32_t mask_bits(Tag d, hn::Mask<Tag> mask) {
   std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(D64{}, mask, bytes);
+  hn::StoreMaskBits(d, mask, bytes);
   return bytes[0];
+}
+HWY_INLINE std::uint32_t mask_bits(hn::Mask<D64> mask) {
+  return mask_bits(D64{}, mask);
+}
+// Bit i belongs to the lower half of lane i.
+HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
+  return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(D64{})));
 }
 
 // Loads the triangles with these indices, one per lane of V64.
 HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32_t* index) {
-  return load_triangles([&](int lane) { return triangles + index[lane / 2]; });
+  constexpr int kTriangles = static_cast<int>(hn::MaxLanes(D64{}));
+  return load_triangles([&](int lane) { return triangles + index[lane * kTriangles / kLanes]; });
 }
 
 // Twice the signed area, made positive.
@@ -112,37 +131,20 @@ struct EdgeLanes {
   }
 };
 
-// Bit i belongs to the lower half of lane i.
-HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
-  return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(D64{})));
-}
-
-// One bit per triangle of a batch.
-struct BatchBits {
-  std::uint32_t drawn;   // not rejected
-  std::uint32_t scalar;  // and drawn with a scalar set-up of its own
-};
 // Calls set_up(padded, k) for a batch's vectors of triangles, from triangle k on, and collects the returned
-// bits. `padded` holds the indices, and then copies of the last one.
-template <int kAtOnce = static_cast<int>(hn::MaxLanes(D64{})), typename SetUp>
-HWY_INLINE BatchBits set_up_batch(std::span<const std::uint32_t> indices, SetUp&& set_up) {
+// bits of triangles that are drawn. `padded` holds the indices, and then copies of the last one.
+template <typename SetUp>
+HWY_INLINE std::uint32_t set_up_batch(std::span<const std::uint32_t> indices, SetUp&& set_up) {
   const int count = static_cast<int>(indices.size());
   std::uint32_t padded[kBatch];
   for (int k = 0; k < kBatch; ++k) padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
-  BatchBits all{0, 0};
-  for (int k = 0; k < count; k += kAtOnce) {
-    const BatchBits some = set_up(padded, k);
-    all.drawn |= some.drawn << k;
-    all.scalar |= some.scalar << k;
-  }
-  all.drawn &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-  return all;
+  std::uint32_t drawn = 0;
+  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(D64{}))) drawn |= set_up(padded, k) << k;
+  return drawn & static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
 }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise
 HWY_AFTER_NAMESPACE();
-
-#endif
 
 #endif

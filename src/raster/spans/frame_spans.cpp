@@ -1,5 +1,5 @@
-// Fills triangles by their spans, in the frame itself. Triangles are set up one per lane; their spans are
-// filled a vector of pixels at a time.
+// Fills triangles by their spans, in the frame itself: the reference. Triangles are set up one per lane;
+// their spans are filled a vector of pixels at a time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/spans/frame_spans.cpp"
 #include <hwy/foreach_target.h>
@@ -63,78 +63,35 @@ HWY_INLINE void fill_spans(const FrameTask& task, const BoxDepth& z, std::uint32
 #endif
 }
 
-// Draws a triangle by its spans.
-inline void draw_spans(const FrameTask& task, const ScreenTriangle& triangle, const PixelBox& box) {
-  const Oriented t = orient(triangle);
-  if (t.area == 0) return;
-  fill_spans(task, BoxDepth(make_depth(t), box), triangle.payload,
-             [&](auto&& span) { for_each_span(t, box, span); });
-}
-
-struct LineBatch;
-
-#if HWY_TARGET != HWY_SCALAR
-
-// A batch of triangles, set up for the spans of an area.
-struct alignas(64) LineBatch {
+struct FrameSpans : FrameBatch {
   BatchLine line[3];
-  std::int64_t gx[kBatch], gy[kBatch], origin[kBatch];  // the DepthPlane
-  std::int32_t zx[kBatch], zy[kBatch];
-  std::int32_t payload[kBatch];
-  std::int32_t x0[kBatch], x1[kBatch], y0[kBatch], y1[kBatch];  // the box
+  std::uint32_t flat = 0;  // bit k: triangle k has too flat a line, and is walked by integers
 };
 
-// Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
-HWY_INLINE BatchBits set_up_vector(const FrameTask& task, const std::uint32_t* indices, LineBatch& out,
-                                   int k) {
-  const D64 d;
-  const TriangleLanes t = load(task.bins.triangles(), indices + k);
+// Sets up a vector of triangles as entries k … of the batch.
+HWY_INLINE std::uint32_t set_up_vector(const FrameTask& task, const std::uint32_t* indices, FrameSpans& out,
+                                       int k) {
+  const TriangleLanes t = load(task.bins.triangles(), indices);
   const BoxLanes box(t.x, t.y, task.area);
   const Area area = area_of(t);
   const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(box.y0), set32(kHalf));
-  const auto flat = store_lines(t, area, task.area.x0, first_sample, out.line, k);
-  const DepthLanes depth = depth_lanes(t, area, 0, 0);
-  hn::Store(depth.gx, d, out.gx + k), hn::Store(depth.gy, d, out.gy + k);
-  hn::Store(depth.start, d, out.origin + k);
-  store(depth.x, out.zx + k), store(depth.y, out.zy + k), store(t.payload, out.payload + k);
-  const std::uint32_t drawn = store_box(box, area, out, k);
-  return {drawn, drawn & mask_bits(hn::Or(flat, hn::Not(depth.exact)))};
+  out.flat |= mask_bits(store_lines(t, area, task.area.x0, first_sample, out.line, k)) << k;
+  return out.store_vector(t, box, area, task.bins.triangles(), indices, k);
 }
 
 // Draws triangle k of a batch.
-HWY_INLINE void draw(const FrameTask& task, const LineBatch& batch, int k) {
-  const PixelBox box{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]};
-  const int left = task.area.x0;  // the lines' pixels are relative to it
-  const auto bits = [k](const auto& lanes) { return static_cast<std::uint64_t>(lanes[k]); };
-  const DepthPlane plane{bits(batch.gx), bits(batch.gy), bits(batch.origin),
-                         static_cast<std::uint32_t>(batch.zx[k]), static_cast<std::uint32_t>(batch.zy[k])};
-  fill_spans(task, BoxDepth(plane, box), static_cast<std::uint32_t>(batch.payload[k]), [&](auto&& span) {
-    constexpr int kFar = kMaxImageSide;
-    std::int64_t at[3], step[3];
-    int is_left[3], is_right[3];
-    for (int i = 0; i < 3; ++i) {
-      const BatchLine& line = batch.line[i];
-      at[i] = line.at[k], step[i] = line.step[k], is_left[i] = line.is_left[k],
-      is_right[i] = line.is_right[k];
-    }
-    for (int y = box.y0; y < box.y1; ++y) {
-      int begin = box.x0 - left, end = box.x1 - left;
-      for (int i = 0; i < 3; ++i) {  // no branches: sides are hard to predict
-        const auto pixel = static_cast<int>(at[i] >> kUnitBits);
-        begin = std::max(begin, pixel & is_left[i]);
-        end = std::min(end, (pixel & is_right[i]) | (kFar & ~is_right[i]));
-        at[i] += step[i];
-      }
-      span(y, begin + left, end + left);
-    }
+HWY_INLINE void draw(const FrameTask& task, const FrameSpans& batch, int k, const ScreenTriangle& triangle) {
+  const PixelBox box = batch.box(k);
+  fill_spans(task, BoxDepth(batch.plane(k), box), triangle.payload, [&](auto&& span) {
+    if (batch.flat >> k & 1)
+      for_each_span(orient(triangle), box, span);
+    else
+      for_each_line_span(batch.line, k, task.area.x0, box, span);
   });
 }
 
-#endif
-
 void draw_spans_in_frame(const FrameTask& task) {
-  draw_in_batches<LineBatch>(
-      task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
+  draw_in_batches<FrameSpans>(task);
 }
 
 }  // namespace HWY_NAMESPACE

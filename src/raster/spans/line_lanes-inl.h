@@ -17,11 +17,11 @@
 //   line that starts farther away does not reach the area in its rows, not even with its start clamped to
 //   2^18 + 2^17 px.
 // - Start, steps and the at most 2^15 px from vertex to area sum up to less than 2^20 px = 2^63 units.
-// An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. Its triangle is
-// walked by integers with a remainder (raster/spans/edge_walk.h). So is a triangle whose depth gradient is
-// too large for doubles. proofs/spans.smt2 proves these claims.
+// An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. The spans of its
+// triangle are found by integer divisions (raster/spans/edge_walk.h). proofs/spans.smt2 proves these claims.
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "edgewise/contract.h"
@@ -41,8 +41,6 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
-
-#if HWY_TARGET != HWY_SCALAR
 
 constexpr int kUnitBits = 43;                              // a unit is 2^-43 px
 constexpr double kMaxStep = 0x1p55, kMaxStart = 0x1.8p61;  // units per row; units
@@ -107,15 +105,36 @@ HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes& t, const Area& area, i
     const V32 origin = set32(left * kSub);
     const LineLanes line = line_lanes(hn::Sub(t.x[i], origin), t.y[i], hn::Sub(t.x[j], origin), t.y[j],
                                       lower(area.flip), first_sample);
-    hn::Store(line.at, d, out[i].at + k);
-    hn::Store(line.step, d, out[i].step + k);
+    hn::StoreU(line.at, d, out[i].at + k);
+    hn::StoreU(line.step, d, out[i].step + k);
     store(line.is_left, out[i].is_left + k), store(line.is_right, out[i].is_right + k);
     flat = hn::Or(flat, line.flat);
   }
   return flat;
 }
 
-#endif
+// Calls span(y, begin, end) for each row of triangle k's box, whose first row is that of the lines: the
+// triangle covers the box's pixels begin … end - 1, and none if begin >= end.
+template <typename Span>
+HWY_INLINE void for_each_line_span(const BatchLine (&line)[3], int k, int left, const PixelBox& box,
+                                   Span&& span) {
+  std::int64_t at[3], step[3];  // copies, which stores of pixels cannot change
+  int is_left[3], is_right[3];
+  for (int i = 0; i < 3; ++i) {
+    at[i] = line[i].at[k], step[i] = line[i].step[k];
+    is_left[i] = line[i].is_left[k], is_right[i] = line[i].is_right[k];
+  }
+  for (int y = box.y0; y < box.y1; ++y) {
+    int begin = box.x0 - left, end = box.x1 - left;
+    for (int i = 0; i < 3; ++i) {  // no branches: sides are hard to predict
+      const auto pixel = static_cast<int>(at[i] >> kUnitBits);
+      begin = std::max(begin, pixel & is_left[i]);
+      end = std::min(end, (pixel & is_right[i]) | (kMaxImageSide & ~is_right[i]));
+      at[i] += step[i];
+    }
+    span(y, begin + left, end + left);
+  }
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise

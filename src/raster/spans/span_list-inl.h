@@ -28,8 +28,6 @@
 #define EDGEWISE_SPAN_LIST_INL_H
 #endif
 
-#if HWY_TARGET != HWY_SCALAR
-
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
@@ -46,17 +44,27 @@ struct SpanTile {
   HiZ<kMaxTile / kSpanBlockWidth, kMaxTile / kRows> hiz;
 };
 
+#if HWY_TARGET == HWY_SCALAR
+
+// The scalar target lists no spans.
+struct SpanList {
+  SpanList(SpanTile&, bool) {}
+  void draw() {}
+};
+
+#else
+
 constexpr std::int32_t wrapped_product(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
 }
 
 class SpanList {
  public:
-  SpanList(SpanTile& tile, bool hierarchical_depth) : tile_(tile), occludes_(hierarchical_depth) {}
+  SpanList(SpanTile& tile, bool hierarchical_depth) : tile_(tile), uses_hiz_(hierarchical_depth) {}
 
   HWY_INLINE void add(const SpanBatch& batch, int k) {
     const bool wide = batch.x1[k] - batch.x0[k] > kNarrow;
-    if (wide && occludes_ && tile_.hiz.occludes(batch.nearest[k])) return count(Part::hiz);
+    if (wide && uses_hiz_ && tile_.hiz.occludes(batch.nearest[k])) return count(Part::hiz);
     count(Part::tile_spans);
     if (length_ > kCapacity - kMostSpans) draw();
     const D d;
@@ -140,7 +148,7 @@ class SpanList {
     const D d;
     const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
     std::int32_t& hiz = *tile_.hiz.at(x / kSpanBlockWidth, y / kRows);
-    if (occludes_ && z + std::min(0, zx * (kSpanBlockWidth - 1)) + std::min(0, zy * (kRows - 1)) >= hiz)
+    if (uses_hiz_ && z + std::min(0, zx * (kSpanBlockWidth - 1)) + std::min(0, zy * (kRows - 1)) >= hiz)
       return;
     V far = hn::Zero(d);
     const V payload = hn::Set(d, batch.payload[k]);
@@ -177,7 +185,7 @@ class SpanList {
   }
 
   SpanTile& tile_;
-  const bool occludes_;
+  const bool uses_hiz_;
   int length_ = 0;
   // Two pairs per span. The first describes the aligned vector of pixels in which the span begins: its
   // position in the tile | triangle of the batch << 16, and the depth at its first pixel. The second is the
@@ -187,6 +195,8 @@ class SpanList {
   alignas(64) std::int32_t in_vector_[kBatch * kLanes], step_[kBatch * kLanes];
   std::int32_t payload_[kBatch];
 };
+
+#endif
 
 // Draws masks up to the first with a rank above `last`, and returns their number.
 HWY_NOINLINE inline std::size_t draw_masks(SpanTile& tile, std::span<const CoverageMask> masks,
@@ -220,7 +230,5 @@ HWY_NOINLINE inline std::size_t draw_masks(SpanTile& tile, std::span<const Cover
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise
 HWY_AFTER_NAMESPACE();
-
-#endif
 
 #endif

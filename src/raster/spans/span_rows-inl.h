@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <span>
 
 #include "edgewise/contract.h"
 #include "raster/kernels.h"
@@ -20,8 +19,6 @@
 #define EDGEWISE_SPAN_ROWS_INL_H
 #endif
 
-#if HWY_TARGET != HWY_SCALAR
-
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
@@ -29,34 +26,33 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
 // A batch of triangles, set up for one tile. Rows and pixels are relative to the tile.
-struct alignas(64) SpanBatch {
+struct SpanBatch {
   BatchLine line[3];
-  struct Depth {
+  struct {
     std::int32_t first[kBatch];  // at the first pixel of the first row
     std::int32_t x[kBatch], y[kBatch];
   } depth;
   std::int32_t nearest[kBatch];  // lower bound of the depth of the triangle's pixels
   std::int32_t payload[kBatch];
   std::int32_t x0[kBatch], x1[kBatch], y0[kBatch], y1[kBatch];  // the box
+  std::uint32_t by_integers;  // bit k: triangle k has too flat a line, or too steep a depth plane
 };
 
-// Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
-HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
-                                   int k) {
-  const D64 d;
-  const TriangleLanes t = load(task.triangles, indices + k);
-  const BoxLanes box(t.x, t.y, {task.x0, task.y0, task.x0 + task.width(), task.y0 + task.height()});
+// Sets up a vector of triangles as entries k … of the batch. Returns the bits of those that are drawn.
+HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
+                                       int k) {
+  const TriangleLanes t = load(task.triangles, indices);
+  const BoxLanes box(t.x, t.y, task.box());
   const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
   const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));
   const Area area = area_of(t);
-  const std::uint32_t drawn = lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(d)));
+  const std::uint32_t drawn = lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
 
   const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(task.y0)));
   const auto flat = store_lines(t, area, task.x0, first_sample, out.line, k);
-  const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
-  const DepthLanes depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
-  const V32 first = hn::Add(depth.base(), hn::Add(hn::Mul(depth.x, set32(in_cell_x)),
-                                                  hn::Mul(depth.y, hn::Add(y0, set32(in_cell_y)))));
+  const DepthLanes depth = depth_lanes(t, area, task.x0 & -kDepthCell, task.y0 & -kDepthCell);
+  out.by_integers |= mask_bits(hn::Or(flat, hn::Not(depth.exact))) << k;
+  const V32 first = depth.at(set32(task.x0 % kDepthCell), hn::Add(y0, set32(task.y0 % kDepthCell)));
   store(first, out.depth.first + k);
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
   const V32 at_box = hn::Add(first, hn::Mul(depth.x, x0));
@@ -68,17 +64,13 @@ HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* in
   store(t.payload, out.payload + k);
   store(x0, out.x0 + k), store(x1, out.x1 + k);
   store(y0, out.y0 + k), store(y1, out.y1 + k);
-  return {drawn, drawn & mask_bits(hn::Or(flat, hn::Not(depth.exact)))};
-}
-
-// Sets up triangles[indices[i]] for all i. Triangles with a scalar set-up are walked by integers.
-inline BatchBits set_up(const TileTask& task, std::span<const std::uint32_t> indices, SpanBatch& out) {
-  return set_up_batch(
-      indices, [&](const std::uint32_t* padded, int k) { return set_up_vector(task, padded, out, k); });
+  return drawn;
 }
 
 constexpr int kRows = static_cast<int>(hn::MaxLanes(D64{}));
 constexpr int kRowsLog2 = std::countr_zero(static_cast<unsigned>(kRows));
+
+#if HWY_TARGET != HWY_SCALAR
 
 // Moves the selected 64-bit lanes to the front. The lanes behind them are unspecified. Compress() of
 // Highway 1.0.3 uses a table that GCC copies to the stack at every call, except for 32-bit lanes with
@@ -122,7 +114,7 @@ class RowLanes {
     for (int i = 0; i < 3; ++i) {
       const auto& line = batch.line[i];
       const V64 step = hn::Set(d, line.step[k]);
-      at_[i] = hn::Add(hn::Set(d, line.at[k]), product(step, lower(lane)));
+      at_[i] = hn::Add(hn::Set(d, line.at[k]), wrapped_product(step, lower(lane)));
       stride_[i] = hn::ShiftLeft<kRowsLog2>(step);
       is_left_[i] = set32(line.is_left[k]), is_right_[i] = set32(line.is_right[k]);
     }
@@ -156,10 +148,10 @@ class RowLanes {
   V32 is_left_[3], is_right_[3], zy_, first_row_, rows_;
 };
 
+#endif
+
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise
 HWY_AFTER_NAMESPACE();
-
-#endif
 
 #endif

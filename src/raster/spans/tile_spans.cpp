@@ -30,52 +30,12 @@ using namespace contract;
 
 namespace {
 
-// Draws a triangle into a tile by integers alone. `depth`, `payload`: the tile's buffers, in rows of kMaxTile
-// pixels.
-void walk_triangle(const TileTask& task, const ScreenTriangle& triangle, std::int32_t* depth,
-                   std::int32_t* payload) {
-  PixelBox box = pixel_box(triangle, task.x0 + task.width(), task.y0 + task.height());
-  box.x0 = std::max(box.x0, task.x0), box.y0 = std::max(box.y0, task.y0);
-  const Oriented t = orient(triangle);
-  if (box.empty() || t.area == 0) return;
-  count(Part::tile_spans);
-  const DepthPlane plane = make_depth(t);
-  for_each_span(t, box, [&](int y, int begin, int end) {
-    const int row = (y - task.y0) * kMaxTile;  // the tile is one depth cell
-    fill_span(depth + row, payload + row, begin - task.x0, end - task.x0, plane.at(task.x0, y), plane.zx,
-              triangle.payload);
-  });
-}
-
 void read_rows(const FramePlane& from, std::int32_t* buffer) {
   for (int y = from.top; y < from.height; ++y)
     std::copy(from.row(y) + from.left, from.row(y) + from.width, buffer + y * kMaxTile + from.left);
 }
 
 // Draws triangles and coverage masks into a tile, in the order of its calls.
-#if HWY_TARGET == HWY_SCALAR
-
-class SpanPainter {
- public:
-  explicit SpanPainter(const TileTask& task) : task_(task) {
-    std::fill_n(depth_, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
-    read_tile(task, depth_, payload_, read_rows);
-  }
-  void draw(const Bins::Segment& segment) {
-    for (const std::uint32_t index : segment.indices)
-      walk_triangle(task_, task_.triangles[index], depth_, payload_);
-  }
-  void draw_rest() {}  // binning makes no masks without vectors
-  const std::int32_t* depth() const { return depth_; }
-  const std::int32_t* payload() const { return payload_; }
-
- private:
-  const TileTask& task_;
-  std::int32_t depth_[kMaxTile * kMaxTile], payload_[kMaxTile * kMaxTile];
-};
-
-#else
-
 class SpanPainter {
  public:
   explicit SpanPainter(const TileTask& task)
@@ -85,22 +45,34 @@ class SpanPainter {
     tile_.hiz.clear(task.width(), task.height());
   }
   void draw(const Bins::Segment& segment) {
-    const BatchBits accepted = set_up(task_, segment.indices, batch_);
-    for (std::uint32_t left = accepted.drawn; left != 0; left &= left - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(left));
-      masks_.draw_before(segment, k, draw_masks_);
-      if (accepted.scalar >> k & 1) {
-        list_.draw();
-        walk_triangle(task_, task_.triangles[segment.indices[k]], tile_.depth, tile_.payload);
-      } else {
-        list_.add(batch_, static_cast<int>(k));
+    batch_.by_integers = 0;
+    std::uint32_t left = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
+      return set_up_vector(task_, padded + k, batch_, k);
+    });
+    for (; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      const auto in_segment = static_cast<std::size_t>(k);
+      masks_.draw_before(segment, in_segment, draw_masks_);
+#if HWY_TARGET != HWY_SCALAR
+      if ((batch_.by_integers >> k & 1) == 0) {
+        list_.add(batch_, k);
+        continue;
       }
+#endif
+      list_.draw();
+      draw_one(task_.triangles[segment.indices[in_segment]], k);
     }
     list_.draw();
   }
-  void draw_rest() { masks_.draw_rest(draw_masks_); }
-  const std::int32_t* depth() const { return tile_.depth; }
-  const std::int32_t* payload() const { return tile_.payload; }
+  void draw_rest() {
+    masks_.draw_rest(draw_masks_);
+  }
+  const std::int32_t* depth() const {
+    return tile_.depth;
+  }
+  const std::int32_t* payload() const {
+    return tile_.payload;
+  }
 
  private:
   struct DrawMasks {
@@ -111,6 +83,24 @@ class SpanPainter {
     }
   };
 
+  // Fills the spans of triangle k of the batch row by row.
+  void draw_one(const ScreenTriangle& triangle, int k) {
+    count(Part::tile_spans);
+    const int x0 = task_.x0, y0 = task_.y0;
+    const PixelBox box{x0 + batch_.x0[k], y0 + batch_.y0[k], x0 + batch_.x1[k], y0 + batch_.y1[k]};
+    const Oriented t = orient(triangle);
+    const DepthPlane plane = make_depth(t);
+    const auto fill = [&](int y, int begin, int end) {
+      const int row = (y - y0) * kMaxTile;  // the tile is one depth cell
+      fill_span(tile_.depth + row, tile_.payload + row, begin - x0, end - x0, plane.at(x0, y), plane.zx,
+                triangle.payload);
+    };
+    if (batch_.by_integers >> k & 1)
+      for_each_span(t, box, fill);
+    else
+      for_each_line_span(batch_.line, k, x0, box, fill);
+  }
+
   const TileTask& task_;
   SpanTile tile_;
   SpanList list_;
@@ -118,8 +108,6 @@ class SpanPainter {
   DrawMasks draw_masks_{*this};
   SpanBatch batch_;
 };
-
-#endif
 
 template <typename Pixels>
 void write_rows(const FramePlane& to, const Pixels& pixels) {
