@@ -49,8 +49,7 @@ inline std::vector<lab::DrawOptions> executions() {
   if (kRacesOnly) return list;
   for (const auto target : supported_targets()) list.push_back({{1, 64, target}});
   for (const auto target : supported_targets())
-    for (const int tile : {16, 32})
-      for (const bool light : {false, true}) list.push_back({{2, tile, target}, {.light_tiles = light}});
+    for (const int tile : {16, 32}) list.push_back({{2, tile, target}});
   for (const auto target : supported_targets())
     for (const auto& tiles : lab::kTileOptions) list.push_back({{1, 64, target}, tiles});
   return list;

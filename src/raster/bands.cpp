@@ -26,8 +26,7 @@ class Bands final : public Backend {
   bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
     const FrameView& frame = part.frame;
     const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2, part.x0, part.y0};
-    if (!bins_.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices))
-      return false;
+    if (!bins_.build(triangles, grid, execution.threads, execution.target, false)) return false;
     // Each vector of pixels lies in the frame, which must be as wide as the longest vector.
     const FrameKernel fill = fill_(frame.width < kLongestVector ? SimdTarget::scalar : execution.target);
     const ClearKernel clear = clear_kernel(execution.target);

@@ -13,7 +13,4 @@ std::size_t llc_bytes();
 // `size` like "512K". The largest is the last level. 0 if the folder names no size.
 std::size_t largest_cache_bytes(const std::string& folder);
 
-// The L2 size that is assumed for every processor: most have 0.5 to 2 MB per core.
-inline constexpr std::size_t kL2Bytes = std::size_t{1} << 20;
-
 }  // namespace edgewise

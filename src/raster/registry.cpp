@@ -20,10 +20,9 @@ using MakeBackend = std::unique_ptr<Backend> (*)();
 template <FrameKernel (*kFill)(SimdTarget)>
 constexpr MakeBackend kBands = [] { return make_bands(kFill); };
 
-template <TileKernel (*kFill)(SimdTarget), bool kHiZ, bool kMasks, bool kLight = false>
-constexpr MakeBackend kTiles = [] {
-  return make_tiles(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ, .light_tiles = kLight});
-};
+template <TileKernel (*kFill)(SimdTarget), bool kHiZ, bool kMasks>
+constexpr MakeBackend kTiles =
+    [] { return make_tiles(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ}); };
 
 }  // namespace
 
@@ -40,7 +39,7 @@ std::span<const BackendInfo> backends() {
        kBands<frame_spans>},
       {"naive", "tests every pixel of the bounding box", kBands<frame_boxes>},
       {"tiled", "SIMD edge functions over tiles, tiles on threads, every pixel independent",
-       kTiles<tile_edges, true, true, true>},
+       kTiles<tile_edges, true, true>},
       EDGEWISE_MORE_BACKENDS(EDGEWISE_ENTRY)  //
   });
   return list;

@@ -12,67 +12,74 @@
 
 namespace edgewise {
 
+void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads,
+                std::vector<TilesTask>& tasks) {
+  constexpr int kLeastRows = 8;  // px, of a task that clears
+  const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
+  const int most_strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
+  tasks.clear();
+  // For any frame of this size, so that later ones allocate nothing.
+  tasks.reserve(static_cast<std::size_t>((columns + most_strips) * rows));
+  for (int row = part.y0 / side; row < rows; ++row) {
+    const int y0 = std::max(row * side, part.y0), height = std::min((row + 1) * side, grid.height) - y0;
+    bool any_cleared = false;
+    for (int column = part.x0 / side; column < columns; ++column) {
+      const int cell = row * columns + column;
+      if (bins.empty(cell))
+        any_cleared = part.clear;
+      else
+        tasks.push_back({cell, row, y0, y0 + height});
+    }
+    const int strips = any_cleared ? std::clamp(height / kLeastRows, 1, most_strips) : 0;
+    for (int i = 0; i < strips; ++i)
+      tasks.push_back(
+          {TilesTask::kClearEmpty, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
+  }
+}
+
 namespace {
 
-// Which tiles get streaming stores.
-struct Streaming {
-  bool nothing, few, many;  // by the tile's content
-
-  Streaming(const FramePart& part, const TileOptions& options, std::size_t read_bytes, int threads) {
-    const FrameView& frame = part.frame;
-    const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
-    const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
-    const auto streamed = [&](TileContent content) {
-      TileStore store = options.tile_store;
-      if (store == TileStore::automatic)
-        store = part.clear ? tile_store_for(content, read_bytes, threads, frame_bytes, llc_bytes())
-                           : TileStore::cached;
-      return store == TileStore::streaming;
-    };
-    nothing = streamed(TileContent::nothing);
-    few = streamed(TileContent::few), many = streamed(TileContent::many);
+void clear_empty(const TilesTask& task, const Bins& bins, const CellGrid& grid, const FramePart& part,
+                 bool streaming, ClearKernel clear) {
+  constexpr int kLeastSide = 16;
+  Interval intervals[contract::kMaxImageSide / kLeastSide / 2 + 1];  // of consecutive tiles
+  std::size_t count = 0;
+  const int first_cell = task.row * grid.columns(), side = 1 << grid.cell_w_log2;
+  for (int x = part.x0 & -side; x < grid.width; x += side) {
+    if (!bins.empty(first_cell + (x >> grid.cell_w_log2))) continue;
+    if (count == 0 || intervals[count - 1].end != x) intervals[count++].begin = x;
+    intervals[count - 1].end = x + side;
   }
-};
+  clear({std::span(intervals).first(count), task.y0, task.y1, part, streaming});
+}
 
 }  // namespace
 
 bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execution& execution,
-                   const TileOptions& options, TileScratch& scratch, TileKernel draw_tile,
-                   FrameKernel draw_light) {
+                   const TileOptions& options, TileScratch& scratch, TileKernel fill) {
+  const auto& [threads, size, target] = execution;
   const FrameView& frame = part.frame;
-  const int size_log2 = std::countr_zero(static_cast<unsigned>(execution.tile_size));
+  const int size_log2 = std::countr_zero(static_cast<unsigned>(size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2, part.x0, part.y0};
   Bins& bins = scratch.bins;
-  TileList& list = scratch.list;
-  const Bins::Small small = options.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices;
-  if (!bins.build(triangles, grid, execution.threads, execution.target, small)) return false;
-  const Streaming stream(part, options, bins.read_bytes(), execution.threads);
-  const int columns = grid.columns();
-  const bool any_light = draw_light != nullptr && !stream.few && frame.payload != nullptr;
-  // A tile that the frame's right side cuts may be narrower than a vector.
-  list.build(bins, grid, part, execution.threads, [&](int cell) {
-    return any_light && bins.few(cell, kLightTriangles) && ((cell % columns + 1) << size_log2) <= frame.width;
-  });
-  const ClearKernel clear = clear_kernel(execution.target);
-  const std::span<const TileList::Task> tasks = list.tasks();
-  const auto do_task = [&](const TileList::Task& task) {
-    if (task.cell == TileList::kClearTiles) {
-      if (part.clear) clear({list.columns_to_clear(task.row), task.y0, task.y1, part, stream.nothing});
-      for (const int cell : list.light_tiles(task.row)) {
-        const int x0 = cell % columns << size_log2, x1 = x0 + (1 << size_log2);
-        draw_light({bins, cell, {std::max(x0, part.x0), task.y0, x1, task.y1}, frame});
-      }
-      return;
-    }
-    const bool streaming = stream.few != stream.many && bins.few(task.cell) ? stream.few : stream.many;
-    draw_tile({bins.triangles(), &bins, task.cell, task.cell % columns << size_log2, task.row << size_log2,
-               size_log2, part, options.hierarchical_depth, streaming});
+  if (!bins.build(triangles, grid, threads, target, options.coverage_masks)) return false;
+  list_tasks(bins, grid, part, threads, scratch.tasks);
+  const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
+  const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
+  const auto is_streamed = [&](bool if_automatic) {
+    return options.tile_store == TileStore::automatic ? if_automatic
+                                                      : options.tile_store == TileStore::streaming;
   };
-  const int count = static_cast<int>(tasks.size());
-  const int at_once = tasks_at_once(count, execution.threads);
-  parallel_for(execution.threads, (count + at_once - 1) / at_once, [&](int i) {
-    for (int k = i * at_once; k < std::min(count, (i + 1) * at_once); ++k)
-      do_task(tasks[static_cast<std::size_t>(k)]);
+  const bool stream_tiles = is_streamed(tiles_are_streamed(part.clear)),
+             stream_clears = is_streamed(clears_are_streamed(frame_bytes, llc_bytes()));
+  const ClearKernel clear = clear_kernel(target);
+  parallel_for(threads, static_cast<int>(scratch.tasks.size()), [&](int i) {
+    const TilesTask& task = scratch.tasks[static_cast<std::size_t>(i)];
+    if (task.cell == TilesTask::kClearEmpty)
+      clear_empty(task, bins, grid, part, stream_clears, clear);
+    else
+      fill({bins.triangles(), &bins, task.cell, task.cell % grid.columns() << size_log2,
+            task.row << size_log2, size_log2, part, options.hierarchical_depth, stream_tiles});
   });
   return true;
 }
@@ -86,8 +93,7 @@ class Tiles final : public Backend {
  private:
   bool draws_depth_only() const override { return true; }
   bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
-    return draw_in_tiles(triangles, part, execution, options_, scratch_, fill_(execution.target),
-                         options_.light_tiles ? frame_spans(execution.target) : nullptr);
+    return draw_in_tiles(triangles, part, execution, options_, scratch_, fill_(execution.target));
   }
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {

@@ -24,12 +24,18 @@ namespace {
 
 using namespace contract;
 
+void build(Bins& bins, std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
+           SimdTarget target, bool with_masks) {
+  StoredTriangles stored(triangles);
+  ASSERT_TRUE(bins.build(stored, grid, threads, target, with_masks));
+}
+
 class BinsOnTarget : public ::testing::TestWithParam<SimdTarget> {
  protected:
   // The lists of all cells.
   std::vector<std::vector<std::uint32_t>> lists(std::span<const ScreenTriangle> triangles,
                                                 const CellGrid& grid) {
-    bins_.build(triangles, grid, 2, GetParam(), Bins::Small::as_indices);
+    build(bins_, triangles, grid, 2, GetParam(), false);
     std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(grid.cells()));
     for (int cell = 0; cell < grid.cells(); ++cell)
       bins_.for_each_segment(cell, [&](const Bins::Segment& segment) {
@@ -47,21 +53,6 @@ ScreenTriangle triangle(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::
   t.x_sub[0] = x0, t.x_sub[1] = x1, t.x_sub[2] = x2;
   t.y_sub[0] = y0, t.y_sub[1] = y1, t.y_sub[2] = y2;
   return t;
-}
-
-TEST(Bins, CountATileAsFewUpToOneBlockOfIndices) {
-  Bins bins;
-  const CellGrid grid{64, 64, 6, 6};
-  const auto is_few = [&](int count, std::int32_t size_px, Bins::Small small) {
-    const std::vector<ScreenTriangle> triangles(static_cast<std::size_t>(count),
-                                                triangle(0, 0, size_px * kSub, 0, 0, size_px * kSub));
-    bins.build(triangles, grid, 1, resolve(SimdTarget::best), small);
-    return bins.few(0);
-  };
-  EXPECT_TRUE(is_few(31, 40, Bins::Small::as_masks));
-  EXPECT_FALSE(is_few(32, 40, Bins::Small::as_masks));
-  EXPECT_TRUE(is_few(1, 4, Bins::Small::as_indices));
-  EXPECT_EQ(is_few(1, 4, Bins::Small::as_masks), resolve(SimdTarget::best) == SimdTarget::scalar);
 }
 
 // Makes so many equal triangles of eight inputs.
@@ -85,7 +76,7 @@ TEST(Bins, KeepASourcesTrianglesUpToTwiceItsInputs) {
   Bins bins;
   const auto fits = [&](std::size_t of_eight, int threads) {
     Equal source(100'000, of_eight);
-    return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), Bins::Small::as_masks);
+    return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), true);
   };
   for (const int threads : {1, 2}) {
     EXPECT_TRUE(fits(16, threads));
@@ -94,17 +85,6 @@ TEST(Bins, KeepASourcesTrianglesUpToTwiceItsInputs) {
     EXPECT_EQ(kept, 200'000u);
     EXPECT_FALSE(fits(24, threads));
   }
-}
-
-// A right triangle in a corner of 32 x 32 px: the upper left corner, or mirrored to the right (1), down (2)
-// or both (3).
-ScreenTriangle in_corner(int from_px, int to_px, int mirrored) {
-  const auto x = [&](int px) { return (mirrored & 1 ? 32 - px : px) * kSub; };
-  const auto y = [&](int px) { return (mirrored & 2 ? 32 - px : px) * kSub; };
-  return triangle(x(from_px), y(from_px), x(to_px), y(from_px), x(from_px), y(to_px));
-}
-ScreenTriangle turned(const ScreenTriangle& t) {
-  return triangle(t.x_sub[0], t.y_sub[0], t.x_sub[2], t.y_sub[2], t.x_sub[1], t.y_sub[1]);
 }
 
 // Triangles with edges in all directions that pass within a few sub-units of the samples at the corner of
@@ -151,40 +131,21 @@ void expect_no_loss(const std::vector<ScreenTriangle>& triangles, const CellGrid
   }
 }
 
-TEST_P(BinsOnTarget, LoseNoTriangle) {
-  for (const int log2 : {3, 4, 6})
-    for (const std::string_view family : kFamilies) {
-      const CellGrid grid{200, 150, log2, log2};
-      const auto triangles = adversarial(family, full_size() ? 20'000 : 2'000, grid.width, grid.height, 11);
-      SCOPED_TRACE(std::string(family) + ", cells of " + std::to_string(1 << log2));
-      expect_no_loss(triangles, grid, lists(triangles, grid));
-    }
-}
-
-TEST_P(BinsOnTarget, HoldOnlyTrianglesWithASampleBoxInTheDrawnPart) {
-  for (const int log2 : {3, 4, 6})
-    for (const std::string_view family : kFamilies) {
-      const CellGrid grid{200, 150, log2, log2, 130, 90};
-      const auto triangles = adversarial(family, 2'000, grid.width, grid.height, 12);
-      SCOPED_TRACE(std::string(family) + ", cells of " + std::to_string(1 << log2));
-      const auto found = lists(triangles, grid);
-      expect_no_loss(triangles, grid, found);
-      for (const auto& list : found)
-        for (const std::uint32_t i : list) {
-          const PixelBox box = pixel_box(triangles[i], grid.width, grid.height);
-          ASSERT_TRUE(box.x1 > grid.x0 && box.y1 > grid.y0) << i;
-        }
-    }
-}
-
-// The longest side passes exactly through a sample of the fourth cell. The fill rule decides whether it is
-// covered.
-TEST_P(BinsOnTarget, LoseNoTriangleWithASampleOnItsEdge) {
-  const CellGrid grid{32, 32, 4, 4};
-  std::vector<ScreenTriangle> triangles;
-  for (int mirrored = 0; mirrored < 4; ++mirrored)
-    triangles.push_back(in_corner(5, 28, mirrored));  // x + y = 33 at (16.5, 16.5)
-  expect_no_loss(triangles, grid, lists(triangles, grid));
+TEST_P(BinsOnTarget, LoseNoTriangleAndHoldNoneWithoutASampleBoxInTheDrawnPart) {
+  for (const auto& [x0, y0] : {std::pair{0, 0}, {130, 90}})
+    for (const int log2 : {3, 4, 6})
+      for (const std::string_view family : kFamilies) {
+        const CellGrid grid{200, 150, log2, log2, x0, y0};
+        const auto triangles = adversarial(family, full_size() ? 20'000 : 2'000, grid.width, grid.height, 11);
+        SCOPED_TRACE(std::string(family) + ", cells of " + std::to_string(1 << log2));
+        const auto found = lists(triangles, grid);
+        expect_no_loss(triangles, grid, found);
+        for (const auto& list : found)
+          for (const std::uint32_t i : list) {
+            const PixelBox box = pixel_box(triangles[i], grid.width, grid.height);
+            ASSERT_FALSE(box.empty() || box.x1 <= grid.x0 || box.y1 <= grid.y0) << i;
+          }
+      }
 }
 
 TEST_P(BinsOnTarget, LoseNoTriangleNearACellCorner) {
@@ -198,34 +159,21 @@ TEST_P(BinsOnTarget, LoseNoTriangleNearACellCorner) {
   }
 }
 
-// Long slivers whose long side touches only a cell's sample next to the corner. Their orientation is lost
-// when products are rounded to floats.
-TEST_P(BinsOnTarget, LoseNoSliverOfUncertainOrientation) {
-  const CellGrid grid{1 << 14, 1 << 14, 13, 13};
-  const std::int32_t k = 2'000'000, corner = (1 << 13) * kSub;
-  std::vector<ScreenTriangle> triangles;
-  for (const int side : {-1, 1})
-    for (int i = -40; i < 40; ++i) {
-      const std::int32_t x = corner + side * kHalf, y = x;
-      const auto t = triangle(x + k, y - k + 1, x - k, y + k - 1, x - k + i, y + k - 1 - i);
-      triangles.push_back(t);
-      triangles.push_back(turned(t));
+TEST_P(BinsOnTarget, RejectUncoveredCellsOfLargeBoxes) {
+  const CellGrid grid{64, 64, 4, 4};
+  std::vector<ScreenTriangle> triangles;  // in the four corners of the image
+  for (const auto& [x, far_x] : {std::pair{0, 62 * kSub}, {64 * kSub, 2 * kSub}})
+    for (const auto& [y, far_y] : {std::pair{0, 62 * kSub}, {64 * kSub, 2 * kSub}})
+      triangles.push_back(triangle(x, y, far_x, y, x, far_y));
+  const auto found = lists(triangles, grid);
+  expect_no_loss(triangles, grid, found);
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) {
+      std::vector<std::uint32_t> expected;  // the hypotenuses end 62 px from the corners
+      for (const std::uint32_t i : {0u, 1u, 2u, 3u})
+        if ((i & 2 ? 3 - column : column) + (i & 1 ? 3 - row : row) < 4) expected.push_back(i);
+      EXPECT_EQ(found[static_cast<std::size_t>(row * 4 + column)], expected);
     }
-  expect_no_loss(triangles, grid, lists(triangles, grid));
-}
-
-// Right triangles whose longest side passes near the centre, so that they cover no sample of one of the four
-// cells.
-TEST_P(BinsOnTarget, RejectTheUncoveredCellOfFour) {
-  const CellGrid grid{32, 32, 4, 4};
-  std::vector<ScreenTriangle> triangles;
-  for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(in_corner(4, 27, mirrored));
-  for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(turned(in_corner(4, 27, mirrored)));
-  using Lists = std::vector<std::vector<std::uint32_t>>;
-  // Triangle i covers no sample of the opposite cell, 3 - i.
-  const Lists rejected = {{0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 5, 7}, {0, 2, 3, 4, 6, 7}, {1, 2, 3, 5, 6, 7}};
-  const Lists kept(4, {0, 1, 2, 3, 4, 5, 6, 7});  // without vectors, only the tiles reject
-  EXPECT_EQ(lists(triangles, grid), GetParam() == SimdTarget::scalar ? kept : rejected);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BinsOnTarget, ::testing::ValuesIn(supported_targets()),

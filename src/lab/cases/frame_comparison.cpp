@@ -44,7 +44,6 @@ std::string describe(const TileOptions& options) {
   };
   add(!options.coverage_masks, "no coverage masks");
   add(!options.hierarchical_depth, "no hierarchical depth");
-  add(!options.light_tiles, "no light tiles");
   add(options.tile_store == TileStore::cached, "cached stores");
   add(options.tile_store == TileStore::streaming, "streaming stores");
   return text;

@@ -25,9 +25,8 @@ struct DrawOptions {
 };
 
 // The options that are compared: each optimization left out, and both tile stores.
-constexpr std::array<TileOptions, 5> kTileOptions{{{.coverage_masks = false},
+constexpr std::array<TileOptions, 4> kTileOptions{{{.coverage_masks = false},
                                                    {.hierarchical_depth = false},
-                                                   {.light_tiles = false},
                                                    {.tile_store = TileStore::cached},
                                                    {.tile_store = TileStore::streaming}}};
 

@@ -8,7 +8,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "raster/binning/mask_finder.h"
+#include "raster/binning/mask_lists.h"
+#include "raster/binning/packet_sorter.h"
 #include "raster/simd/record_lanes-inl.h"
 #include "raster/simd/rule_lanes-inl.h"
 
@@ -128,69 +129,86 @@ class Crossings {
   hn::Mask<DF> rises_;
 };
 
-// Appends the triangles of a vector that are small and cover a sample. Bit i of the result is set if triangle
-// i does. `index`: of the first, in the packet.
-HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& box, hn::Mask<D> small,
-                                         int index, Covering& out) {
-  const D d;
-  const V zero = hn::Zero(d);
-  const auto minus = [](V a, V b) { return hn::Sub(a, b); };
-  // Positive area (rule 4).
-  V dx1 = minus(t.x[1], t.x[0]), dx2 = minus(t.x[2], t.x[0]);
-  V dy1 = minus(t.y[1], t.y[0]), dy2 = minus(t.y[2], t.y[0]);
-  const V signed_area = minus(hn::Mul(dx1, dy2), hn::Mul(dy1, dx2));
-  const V flip = hn::BroadcastSignBit(signed_area);
-  const auto flipped = [&](V v) { return hn::Sub(hn::Xor(v, flip), flip); };
-  const V area = flipped(signed_area);
-  dx1 = flipped(dx1), dx2 = flipped(dx2), dy1 = flipped(dy1), dy2 = flipped(dy2);
+// The sides of small triangles from vertex 0 on, turned so that the area is positive (rule 4).
+struct SmallSides {
+  V dx1, dx2, dy1, dy2, area;
+  HWY_INLINE explicit SmallSides(const RecordLanes& t) {
+    const auto minus = [](V a, V b) { return hn::Sub(a, b); };
+    const V x1 = minus(t.x[1], t.x[0]), x2 = minus(t.x[2], t.x[0]);
+    const V y1 = minus(t.y[1], t.y[0]), y2 = minus(t.y[2], t.y[0]);
+    const V signed_area = minus(hn::Mul(x1, y2), hn::Mul(y1, x2));
+    const V flip = hn::BroadcastSignBit(signed_area);
+    const auto flipped = [&](V v) { return hn::Sub(hn::Xor(v, flip), flip); };
+    dx1 = flipped(x1), dx2 = flipped(x2), dy1 = flipped(y1), dy2 = flipped(y2), area = flipped(signed_area);
+  }
+};
 
-  const V width = minus(box.x1, box.x0), height = minus(box.y1, box.y0);
-  const auto sample = [&](V px) { return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(d, kHalf)); };
+// The first `count` of four rows of 8 bits, 0 … 4, in two shifts: no shift by 32 bits.
+HWY_INLINE V first_rows(V count) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  const V left_out = hn::ShiftLeft<3>(hn::Sub(hn::Set(d, 4), count));
+  const auto half = hn::BitCast(du, hn::ShiftRight<1>(left_out));
+  return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> half) >> half);
+}
+
+HWY_INLINE V sample(V px) {
+  return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(D{}, kHalf));
+}
+
+// The samples that small triangles cover: the upper and the lower four rows of their boxes.
+HWY_INLINE void find_covered(const RecordLanes& t, const SmallSides& sides, const BoxLanes& box,
+                             hn::Mask<D> small, V (&covered)[2]) {
+  const D d;
+  const auto& [dx1, dx2, dy1, dy2, area] = sides;
   const V sx = sample(box.x0), sy = sample(box.y0);
-  const V a[3] = {hn::Neg(dy1), minus(dy1, dy2), dy2}, b[3] = {dx1, minus(dx2, dx1), hn::Neg(dx2)};
+  const V a[3] = {hn::Neg(dy1), hn::Sub(dy1, dy2), dy2}, b[3] = {dx1, hn::Sub(dx2, dx1), hn::Neg(dx2)};
   Crossings edge[3];
   for (int i = 0; i < 3; ++i) {
     const V bias = hn::IfThenZeroElse(is_top_left(a[i], b[i]), hn::Set(d, -1));
-    const V first = hn::Add(hn::Mul(a[i], minus(sx, t.x[i])), hn::Mul(b[i], minus(sy, t.y[i])));
+    const V first = hn::Add(hn::Mul(a[i], hn::Sub(sx, t.x[i])), hn::Mul(b[i], hn::Sub(sy, t.y[i])));
     edge[i] = Crossings(a[i], b[i], hn::ShiftRight<kSubBits>(hn::Add(first, bias)));  // rule 5
   }
-
+  const V height = hn::Sub(box.y1, box.y0), upper_rows = hn::Min(height, hn::Set(d, 4));
   const int rows = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, height)));
-  const RowSpan whole(width);
-  V covered[2] = {zero, zero};
+  const RowSpan whole(hn::Sub(box.x1, box.x0));
+  covered[0] = covered[1] = hn::Zero(d);
   for (int y = 0; y < rows; ++y) {
     RowSpan span = whole;
     for (Crossings& e : edge) e.cut_row(span);
     V& half = covered[y / 4];
     half = hn::Or(half, hn::ShiftLeftSame(span.bits(), y % 4 * 8));
   }
-  const hn::RebindToUnsigned<D> du;
-  const auto row_bits = [&](V row_count) {  // of 0 … 4 rows, in two shifts: no shift by 32 bits
-    const V left_out = hn::ShiftLeft<3>(minus(hn::Set(d, 4), row_count));
-    const auto half = hn::BitCast(du, hn::ShiftRight<1>(left_out));
-    return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> half) >> half);
-  };
-  const V four = hn::Set(d, 4);
-  const V upper_rows = hn::Min(height, four), lower_rows = hn::Sub(height, upper_rows);
-  const V inside[2] = {hn::And(covered[0], row_bits(upper_rows)), hn::And(covered[1], row_bits(lower_rows))};
-  const auto covers = hn::And(hn::And(small, hn::Gt(area, zero)), hn::Ne(hn::Or(inside[0], inside[1]), zero));
+  covered[0] = hn::And(covered[0], first_rows(upper_rows));
+  covered[1] = hn::And(covered[1], first_rows(hn::Sub(height, upper_rows)));
+}
 
+// Appends the triangles of a vector that are small and cover a sample. Bit i of the result is set if triangle
+// i does. `index`: of the first, in the packet.
+HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& box, hn::Mask<D> small,
+                                         int index, Covering& out) {
+  const V zero = hn::Zero(D{});
+  const SmallSides sides(t);
+  V covered[2];
+  find_covered(t, sides, box, small, covered);
+  const auto covers =
+      hn::And(hn::And(small, hn::Gt(sides.area, zero)), hn::Ne(hn::Or(covered[0], covered[1]), zero));
   const AnchorLanes anchor(t.x, t.y, t.z);
-  const auto cell_sample = [&](V px) { return sample(hn::And(px, hn::Set(d, -kDepthCell))); };
-  const std::uint32_t covering = mask_bits(covers);
+  const auto from_anchor = [](V px, V anchor_sub) {
+    return hn::Sub(sample(hn::And(px, hn::Set(D{}, -kDepthCell))), anchor_sub);
+  };
   const Selection select(covers);
-  const int at = out.count;
-  const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), d, list + at); };
+  const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), D{}, list + out.count); };
   keep(counting_from(index), out.index);
   keep(box.x0, out.x0), keep(box.y0, out.y0);
-  keep(inside[0], out.covered[0]), keep(inside[1], out.covered[1]);
+  keep(covered[0], out.covered[0]), keep(covered[1], out.covered[1]);
   keep(t.payload, out.payload);
-  keep(dx1, out.dx1), keep(dx2, out.dx2), keep(dy1, out.dy1), keep(dy2, out.dy2);
-  keep(minus(t.z[1], t.z[0]), out.dz1), keep(minus(t.z[2], t.z[0]), out.dz2);
-  keep(area, out.area);
-  keep(minus(cell_sample(box.x0), anchor.x), out.from_x),
-      keep(minus(cell_sample(box.y0), anchor.y), out.from_y);
+  keep(sides.dx1, out.dx1), keep(sides.dx2, out.dx2), keep(sides.dy1, out.dy1), keep(sides.dy2, out.dy2);
+  keep(hn::Sub(t.z[1], t.z[0]), out.dz1), keep(hn::Sub(t.z[2], t.z[0]), out.dz2);
+  keep(sides.area, out.area);
+  keep(from_anchor(box.x0, anchor.x), out.from_x), keep(from_anchor(box.y0, anchor.y), out.from_y);
   keep(anchor.z, out.anchor_z);
+  const std::uint32_t covering = mask_bits(covers);
   out.count += std::popcount(covering);
   return covering;
 }

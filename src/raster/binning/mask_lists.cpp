@@ -7,7 +7,8 @@ namespace edgewise {
 void MaskLists::reset(std::size_t cells, std::size_t masks) {
   lists_.assign(cells, {});
   used_ = 0;
-  // Lists of about this many segments: the unused part of the last segment stays small.
+  // Lists of about this many segments: the unused part of the last segment stays small. With segments of 256
+  // or 1024 bytes, grid4 is drawn 1.33x or 1.09x slower.
   constexpr std::size_t kSegmentsPerList = 4;
   segment_bytes_ = std::bit_ceil(
       std::clamp(masks * sizeof(CoverageMask) / cells / kSegmentsPerList, kSmallestSegment, kLargestSegment));

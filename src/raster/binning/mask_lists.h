@@ -47,6 +47,7 @@ class MaskLists {
     std::memcpy(at, &first, sizeof first);
     std::memcpy(reinterpret_cast<char*>(at) + sizeof first, &second, sizeof second);
     at->rank = rank;
+    // Without it, grid4 is drawn 1.04x slower.
     __builtin_prefetch(reinterpret_cast<const char*>(at) + kCacheLine, 1);
     list.end = at + 1;
   }

@@ -87,74 +87,83 @@ struct Cut {
   }
 };
 
-inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const Planes& planes,
-                               SortedTriangles& out) {
+using DU = hn::RebindToUnsigned<D>;
+using U = hn::Vec<DU>;
+HWY_INLINE U unsigned_bits(V v) {
+  return hn::BitCast(DU{}, v);
+}
+
+// The rows of pixels of four masks, four rows of 8 bits per word. `covered`: of boxes that begin at (x0, y0).
+HWY_INLINE void cut_rows(V x0, V y0, const Cut& across, const Cut& down, const U (&covered)[2],
+                         U (&rows)[SortedPacket::kQuadrants][2]) {
+  const DU du;
+  const auto in_each_row = [](U v) {
+    return unsigned_bits(hn::Mul(hn::BitCast(D{}, v), hn::Set(D{}, 0x01010101)));
+  };
+  // Shift the left quadrants' pixels to their columns, the right ones' to column 0.
+  const U shift = unsigned_bits(hn::And(x0, hn::Set(D{}, 3))), left_count = unsigned_bits(across.first_count);
+  const U all = hn::Set(du, 0xFF), zero = hn::Zero(du);
+  const U left_bits = in_each_row(all >> (hn::Set(du, 8) - left_count)),
+          right_bits = in_each_row(all >> left_count);
+  // Then shift rows: y0 % 4 of them move to the next word.
+  const U row_shift = unsigned_bits(hn::ShiftLeft<3>(hn::And(y0, hn::Set(D{}, 3))));
+  const U back = hn::Set(du, 24) - row_shift;
+  const auto two_words = hn::RebindMask(du, hn::Eq(hn::Sub(down.second_block, down.block), hn::Set(D{}, 2)));
+  for (int right = 0; right < 2; ++right) {
+    const auto moved = [&](U v) { return right ? (v >> left_count) & right_bits : (v & left_bits) << shift; };
+    const U upper = moved(covered[0]), lower = moved(covered[1]);
+    const U word[3] = {upper << row_shift, (lower << row_shift) | (hn::ShiftRight<8>(upper) >> back),
+                       hn::ShiftRight<8>(lower) >> back};
+    rows[right][0] = word[0];
+    rows[right][1] = hn::IfThenElseZero(two_words, word[1]);
+    rows[2 + right][0] = hn::IfThenElse(two_words, word[2], word[1]);
+    rows[2 + right][1] = hn::IfThenElse(two_words, zero, word[2]);
+  }
+}
+
+// The cells of blocks, and their places in the cells, in bits as CoverageMask::block.
+HWY_INLINE void place(const CellGrid& grid, V bx, V by, V& cell, V& in_cell) {
   const D d;
-  const hn::RebindToUnsigned<D> du;
-  using U = hn::Vec<decltype(du)>;
-  using Pairs64 = hn::RebindToUnsigned<Pairs>;
-  const auto bits = [&](V v) { return hn::BitCast(du, v); };
-  const auto bytes = [&](U v) { return bits(hn::Mul(hn::BitCast(d, v), hn::Set(d, 0x01010101))); };
-  const int columns = grid.columns();
+  const int across_log2 = grid.cell_w_log2 - 2, down_log2 = grid.cell_h_log2 - 2;
+  cell = hn::Add(hn::Mul(hn::ShiftRightSame(by, down_log2), hn::Set(d, grid.columns())),
+                 hn::ShiftRightSame(bx, across_log2));
+  const V in_x = hn::And(bx, hn::Set(d, (1 << across_log2) - 1));
+  const V in_y = hn::And(by, hn::Set(d, (1 << down_log2) - 1));
+  in_cell = hn::Add(hn::ShiftLeft<4>(in_y), in_x);
+}
+
+inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const Planes& planes,
+                               SortedPacket& out) {
+  const D d;
   for (int k = 0; k < from.count; k += kLanes) {
     const auto read = [&](const std::int32_t* list) { return hn::LoadU(d, list + k); };
     const V x0 = read(from.x0), y0 = read(from.y0);
     const Cut across(x0, grid.cell_w_log2), down(y0, grid.cell_h_log2);
-
-    // Four rows of 8 bits per word: shift the left quadrants' pixels to their columns, the right ones' to
-    // column 0.
-    const U shift = bits(hn::And(x0, hn::Set(d, 3))), left_count = bits(across.first_count);
-    const U all = hn::Set(du, 0xFF), eight = hn::Set(du, 8);
-    const U left_bits = bytes(all >> (eight - left_count)), right_bits = bytes(all >> left_count);
-    // Then shift rows: y0 % 4 of them move to the next word.
-    const U row_shift = bits(hn::ShiftLeft<3>(hn::And(y0, hn::Set(d, 3))));
-    const U back = hn::Set(du, 24) - row_shift;
-    const auto two_words = hn::Eq(hn::Sub(down.second_block, down.block), hn::Set(d, 2));
-    const U upper = bits(read(from.covered[0])), lower_rows = bits(read(from.covered[1]));
-    U rows[SortedTriangles::kQuadrants][2];
-    for (int right = 0; right < 2; ++right) {
-      const auto moved = [&](U v) {
-        return right ? (v >> left_count) & right_bits : (v & left_bits) << shift;
-      };
-      const U u = moved(upper), l = moved(lower_rows);
-      const U word[3] = {u << row_shift, (l << row_shift) | (hn::ShiftRight<8>(u) >> back),
-                         hn::ShiftRight<8>(l) >> back};
-      const auto two = hn::RebindMask(du, two_words);
-      const U zero = hn::Zero(du);
-      rows[right][0] = word[0];
-      rows[right][1] = hn::IfThenElseZero(two, word[1]);
-      rows[2 + right][0] = hn::IfThenElse(two, word[2], word[1]);
-      rows[2 + right][1] = hn::IfThenElse(two, zero, word[2]);
-    }
-
+    U rows[SortedPacket::kQuadrants][2];
+    cut_rows(x0, y0, across, down,
+             {unsigned_bits(read(from.covered[0])), unsigned_bits(read(from.covered[1]))}, rows);
     const V payload = read(from.payload), zx = read(planes.zx), zy = read(planes.zy);
-    const auto upper_bits = [&](int at) {  // start has 24 fraction bits
-      return hn::BitCast(d,
-                         hn::ShiftRight<24>(hn::BitCast(Pairs64{}, hn::LoadU(Pairs{}, planes.start + at))));
+    const auto base_at = [&](int at) {  // start has 24 fraction bits
+      const hn::RebindToUnsigned<Pairs> d64;
+      return hn::BitCast(d, hn::ShiftRight<24>(hn::BitCast(d64, hn::LoadU(Pairs{}, planes.start + at))));
     };
-    const V base = hn::ConcatEven(d, upper_bits(k + kPairs), upper_bits(k));
+    const V base = hn::ConcatEven(d, base_at(k + kPairs), base_at(k));
     V present = hn::Zero(d);
     const auto live = hn::FirstN(d, static_cast<std::size_t>(from.count - k));
-    for (int w = 0; w < SortedTriangles::kQuadrants; ++w) {
-      const auto filled = hn::And(live, hn::RebindMask(d, hn::Ne(rows[w][0] | rows[w][1], hn::Zero(du))));
-      const std::uint32_t these = mask_bits(filled);
-      if (these == 0) continue;
+    for (int w = 0; w < SortedPacket::kQuadrants; ++w) {
+      const auto filled = hn::And(live, hn::RebindMask(d, hn::Ne(rows[w][0] | rows[w][1], hn::Zero(DU{}))));
+      if (hn::AllFalse(d, filled)) continue;
       present = hn::Or(present, hn::IfThenElseZero(filled, hn::Set(d, 1 << w)));
       const V bx = w & 1 ? across.second_block : across.block, by = w & 2 ? down.second_block : down.block;
-      const int across_log2 = grid.cell_w_log2 - 2, down_log2 = grid.cell_h_log2 - 2;
-      const V cell = hn::Add(hn::Mul(hn::ShiftRightSame(by, down_log2), hn::Set(d, columns)),
-                             hn::ShiftRightSame(bx, across_log2));
-      const V in_x = hn::And(bx, hn::Set(d, (1 << across_log2) - 1));
-      const V in_y = hn::And(by, hn::Set(d, (1 << down_log2) - 1));
-      const V block = hn::Add(hn::ShiftLeft<4>(in_y), in_x);
-      const auto in_depth_cell = [&](V b) {
-        return hn::ShiftLeft<2>(hn::And(b, hn::Set(d, kDepthCell / 4 - 1)));
+      V cell, in_cell;
+      place(grid, bx, by, cell, in_cell);
+      const auto in_depth_cell = [&](V block) {
+        return hn::ShiftLeft<2>(hn::And(block, hn::Set(d, kDepthCell / 4 - 1)));
       };
       const V z = hn::Add(base, hn::Add(hn::Mul(zx, in_depth_cell(bx)), hn::Mul(zy, in_depth_cell(by))));
-      hn::StoreInterleaved4(hn::BitCast(d, rows[w][0]), hn::BitCast(d, rows[w][1]), block, payload, d,
+      hn::StoreInterleaved4(hn::BitCast(d, rows[w][0]), hn::BitCast(d, rows[w][1]), in_cell, payload, d,
                             reinterpret_cast<std::int32_t*>(out.first[w] + k));
       hn::StoreInterleaved4(z, zx, zy, cell, d, reinterpret_cast<std::int32_t*>(out.second[w] + k));
-      if (w == 0) continue;
       // A quadrant in another depth cell has another base.
       const auto leaves = [&](V from_block, V to_block) {
         const V same_cell = hn::ShiftRight<4>(hn::Xor(from_block, to_block));

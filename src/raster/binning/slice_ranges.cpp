@@ -42,29 +42,24 @@ std::optional<SliceRanges::Inputs> SliceRanges::next(std::size_t slice) {
 
 std::optional<std::size_t> SliceRanges::split() {
   constexpr std::size_t kShort = 3;  // pieces
-  std::optional<std::size_t> slice;  // stays unused if there is nothing to take
-  const std::atomic_ref next(next_);
-  for (;;) {
-    std::size_t longest = 0, count = 0;
+  const std::size_t slice = std::atomic_ref(next_).fetch_add(1, std::memory_order_relaxed);
+  while (slice < most_) {  // stays unused if there is nothing to take
+    std::size_t longest = 0;
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < std::min(next.load(std::memory_order_relaxed), most_); ++i) {
+    for (std::size_t i = 0; i < most_; ++i) {
       const std::uint64_t left = slices_[i].left.load(std::memory_order_relaxed);
-      if (const std::size_t n = Pieces(left).count(); n > count) longest = i, count = n, bits = left;
-    }
-    if (count < kShort) return std::nullopt;
-    if (!slice) {
-      if (next.load(std::memory_order_relaxed) >= most_) return std::nullopt;
-      slice = next.fetch_add(1, std::memory_order_relaxed);
-      if (*slice >= most_) return std::nullopt;
+      if (Pieces(left).count() > Pieces(bits).count()) longest = i, bits = left;
     }
     const Pieces rest(bits);
-    const std::size_t middle = rest.end - count / 2;
-    if (!slices_[longest].left.compare_exchange_strong(bits, Pieces(rest.begin, middle).bits(),
-                                                       std::memory_order_relaxed))
-      continue;
-    use(*slice, middle, rest.end);
-    return slice;
+    if (rest.count() < kShort) break;
+    const std::size_t middle = rest.end - rest.count() / 2;
+    if (slices_[longest].left.compare_exchange_strong(bits, Pieces(rest.begin, middle).bits(),
+                                                      std::memory_order_relaxed)) {
+      use(slice, middle, rest.end);
+      return slice;
+    }
   }
+  return std::nullopt;
 }
 
 std::span<const std::size_t> SliceRanges::in_order() {

@@ -39,7 +39,7 @@ class SliceRanges {
 
   std::vector<Slice> slices_;
   std::vector<std::size_t> order_;
-  std::size_t next_ = 0;  // the next slice, unless there are `most`; accessed atomically
+  std::size_t next_ = 0;  // the next slice, if it is less than `most`; accessed atomically
   std::size_t most_ = 0, count_ = 0, at_once_ = 1;
 };
 
