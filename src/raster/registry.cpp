@@ -20,9 +20,10 @@ using MakeBackend = std::unique_ptr<Backend> (*)();
 template <FrameKernel (*kFill)(SimdTarget)>
 constexpr MakeBackend kBands = [] { return make_bands(kFill); };
 
-template <TileKernel (*kFill)(SimdTarget), bool kHiZ, bool kMasks>
+template <TileKernel (*kFill)(SimdTarget), bool kHiZ, bool kMasks,
+          FrameKernel (*kLight)(SimdTarget) = nullptr>
 constexpr MakeBackend kTiles =
-    [] { return make_tiles(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ}); };
+    [] { return make_tiles(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ}, kLight); };
 
 }  // namespace
 
@@ -39,7 +40,7 @@ std::span<const BackendInfo> backends() {
        kBands<frame_spans>},
       {"naive", "tests every pixel of the bounding box", kBands<frame_boxes>},
       {"tiled", "SIMD edge functions over tiles, tiles on threads, every pixel independent",
-       kTiles<tile_edges, true, true>},
+       kTiles<tile_edges, true, true, frame_spans>},
       EDGEWISE_MORE_BACKENDS(EDGEWISE_ENTRY)  //
   });
   return list;

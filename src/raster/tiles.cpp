@@ -12,7 +12,49 @@
 
 namespace edgewise {
 
-void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads,
+namespace {
+
+// May be true for an empty tile. A tile that the frame's right side cuts may be narrower than a vector.
+bool is_light(const Bins& bins, const CellGrid& grid, int cell) {
+  return bins.few(cell, kLightTriangles) && ((cell % grid.columns() + 1) << grid.cell_w_log2) <= grid.width;
+}
+
+// What clears the empty and light tiles of a part and draws the light ones.
+struct InFrame {
+  const Bins& bins;
+  const CellGrid& grid;
+  const FramePart& part;
+  const bool streaming;
+  const ClearKernel clear;
+  const FrameKernel draw_light;  // null: no tile is light
+
+  void operator()(const TilesTask& task) const {
+    constexpr int kLeastSide = 16;
+    Interval intervals[contract::kMaxImageSide / kLeastSide / 2 + 1];  // of consecutive tiles
+    std::size_t count = 0;
+    const int side = 1 << grid.cell_w_log2;
+    const auto for_each_tile = [&](auto&& visit) {  // visit(its first column, its cell, whether it is empty)
+      for (int x = part.x0 & -side; x < grid.width; x += side) {
+        const int cell = task.row * grid.columns() + (x >> grid.cell_w_log2);
+        const bool is_empty = bins.empty(cell);
+        if (is_empty || (draw_light != nullptr && is_light(bins, grid, cell))) visit(x, cell, is_empty);
+      }
+    };
+    for_each_tile([&](int x, int, bool) {
+      if (count == 0 || intervals[count - 1].end != x) intervals[count++].begin = x;
+      intervals[count - 1].end = x + side;
+    });
+    if (part.clear) clear({std::span(intervals).first(count), task.y0, task.y1, part, streaming});
+    if (draw_light == nullptr) return;
+    for_each_tile([&](int x, int cell, bool is_empty) {
+      if (!is_empty) draw_light({bins, cell, {std::max(x, part.x0), task.y0, x + side, task.y1}, part.frame});
+    });
+  }
+};
+
+}  // namespace
+
+void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads, bool with_light,
                 std::vector<TilesTask>& tasks) {
   constexpr int kLeastRows = 8;  // px, of a task that clears
   const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
@@ -22,61 +64,46 @@ void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, i
   tasks.reserve(static_cast<std::size_t>((columns + most_strips) * rows));
   for (int row = part.y0 / side; row < rows; ++row) {
     const int y0 = std::max(row * side, part.y0), height = std::min((row + 1) * side, grid.height) - y0;
-    bool any_cleared = false;
+    bool any_in_frame = false;
     for (int column = part.x0 / side; column < columns; ++column) {
       const int cell = row * columns + column;
-      if (bins.empty(cell))
-        any_cleared = part.clear;
+      const bool is_empty = bins.empty(cell);
+      if (is_empty || (with_light && is_light(bins, grid, cell)))
+        any_in_frame |= part.clear || !is_empty;
       else
         tasks.push_back({cell, row, y0, y0 + height});
     }
-    const int strips = any_cleared ? std::clamp(height / kLeastRows, 1, most_strips) : 0;
+    const int strips = any_in_frame ? std::clamp(height / kLeastRows, 1, most_strips) : 0;
     for (int i = 0; i < strips; ++i)
-      tasks.push_back(
-          {TilesTask::kClearEmpty, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
+      tasks.push_back({TilesTask::kInFrame, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
   }
 }
-
-namespace {
-
-void clear_empty(const TilesTask& task, const Bins& bins, const CellGrid& grid, const FramePart& part,
-                 bool streaming, ClearKernel clear) {
-  constexpr int kLeastSide = 16;
-  Interval intervals[contract::kMaxImageSide / kLeastSide / 2 + 1];  // of consecutive tiles
-  std::size_t count = 0;
-  const int first_cell = task.row * grid.columns(), side = 1 << grid.cell_w_log2;
-  for (int x = part.x0 & -side; x < grid.width; x += side) {
-    if (!bins.empty(first_cell + (x >> grid.cell_w_log2))) continue;
-    if (count == 0 || intervals[count - 1].end != x) intervals[count++].begin = x;
-    intervals[count - 1].end = x + side;
-  }
-  clear({std::span(intervals).first(count), task.y0, task.y1, part, streaming});
-}
-
-}  // namespace
 
 bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execution& execution,
-                   const TileOptions& options, TileScratch& scratch, TileKernel fill) {
+                   const TileOptions& options, TileScratch& scratch, TileKernel fill,
+                   FrameKernel draw_light) {
   const auto& [threads, size, target] = execution;
   const FrameView& frame = part.frame;
   const int size_log2 = std::countr_zero(static_cast<unsigned>(size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2, part.x0, part.y0};
   Bins& bins = scratch.bins;
   if (!bins.build(triangles, grid, threads, target, options.coverage_masks)) return false;
-  list_tasks(bins, grid, part, threads, scratch.tasks);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
+  const bool large = part.clear && is_large(frame_bytes, llc_bytes());
   const auto is_streamed = [&](bool if_automatic) {
     return options.tile_store == TileStore::automatic ? if_automatic
                                                       : options.tile_store == TileStore::streaming;
   };
-  const bool stream_tiles = is_streamed(tiles_are_streamed(part.clear)),
-             stream_clears = is_streamed(clears_are_streamed(frame_bytes, llc_bytes()));
-  const ClearKernel clear = clear_kernel(target);
+  const bool stream_tiles = is_streamed(part.clear && tiles_are_streamed(large, threads)),
+             stream_clears = is_streamed(large);
+  if (stream_clears || frame.payload == nullptr) draw_light = nullptr;
+  list_tasks(bins, grid, part, threads, draw_light != nullptr, scratch.tasks);
+  const InFrame draw_in_frame{bins, grid, part, stream_clears, clear_kernel(target), draw_light};
   parallel_for(threads, static_cast<int>(scratch.tasks.size()), [&](int i) {
     const TilesTask& task = scratch.tasks[static_cast<std::size_t>(i)];
-    if (task.cell == TilesTask::kClearEmpty)
-      clear_empty(task, bins, grid, part, stream_clears, clear);
+    if (task.cell == TilesTask::kInFrame)
+      draw_in_frame(task);
     else
       fill({bins.triangles(), &bins, task.cell, task.cell % grid.columns() << size_log2,
             task.row << size_log2, size_log2, part, options.hierarchical_depth, stream_tiles});
@@ -88,12 +115,14 @@ namespace {
 
 class Tiles final : public Backend {
  public:
-  Tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options) : fill_(fill), options_(options) {}
+  Tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options, FrameKernel (*light)(SimdTarget))
+      : fill_(fill), light_(light), options_(options) {}
 
  private:
   bool draws_depth_only() const override { return true; }
   bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
-    return draw_in_tiles(triangles, part, execution, options_, scratch_, fill_(execution.target));
+    return draw_in_tiles(triangles, part, execution, options_, scratch_, fill_(execution.target),
+                         light_ != nullptr ? light_(execution.target) : nullptr);
   }
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
@@ -102,14 +131,16 @@ class Tiles final : public Backend {
   }
 
   TileKernel (*const fill_)(SimdTarget);
+  FrameKernel (*const light_)(SimdTarget);
   const TileOptions options_;
   TileScratch scratch_;
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> make_tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options) {
-  return std::make_unique<Tiles>(fill, options);
+std::unique_ptr<Backend> make_tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options,
+                                    FrameKernel (*light)(SimdTarget)) {
+  return std::make_unique<Tiles>(fill, options, light);
 }
 
 }  // namespace edgewise

@@ -12,17 +12,18 @@
 
 namespace edgewise {
 
-// Draws a tile that has triangles, or clears the tiles of a row of tiles that have none.
+// Draws a tile in a buffer, or clears the empty and light tiles of a row of tiles and draws the light ones.
 struct TilesTask {
-  static constexpr int kClearEmpty = -1;
-  int cell;    // of the tile in the bins; kClearEmpty: the pixel rows y0 … y1 - 1 of the empty tiles
+  static constexpr int kInFrame = -1;
+  int cell;    // of the tile in the bins; kInFrame: the pixel rows y0 … y1 - 1 of the row's other tiles
   int row;     // of tiles
   int y0, y1;  // px, in the part
 };
 
-// The tasks of a part of a frame. A row of tiles has a task for each tile with triangles, and then one, or
-// several on many threads, for its empty tiles, unless nothing is cleared. `grid`: of the part's frame.
-void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads,
+// The tasks of a part of a frame. A row of tiles has a task for each tile drawn in a buffer, and then one, or
+// several on many threads, for its other tiles, unless nothing is cleared or drawn there. `grid`: of the
+// part's frame. `with_light`: whether tiles may be light.
+void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads, bool with_light,
                 std::vector<TilesTask>& tasks);
 
 // What drawing in tiles keeps between frames.
@@ -31,11 +32,15 @@ struct TileScratch {
   std::vector<TilesTask> tasks;
 };
 
-// Returns false if Bins::build() does; then nothing is drawn.
+// `draw_light` draws light tiles. If it is null, or the frame is large or has no payload plane, no tile is
+// light. Returns false if Bins::build() does; then nothing is drawn.
 bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execution& execution,
-                   const TileOptions& options, TileScratch& scratch, TileKernel fill);
+                   const TileOptions& options, TileScratch& scratch, TileKernel fill,
+                   FrameKernel draw_light = nullptr);
 
-// `fill` returns the kernel that draws a tile.
-std::unique_ptr<Backend> make_tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options);
+// `fill` returns the kernel that draws a tile, `light` the one that draws light tiles; null: no tile is
+// light.
+std::unique_ptr<Backend> make_tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options,
+                                    FrameKernel (*light)(SimdTarget) = nullptr);
 
 }  // namespace edgewise

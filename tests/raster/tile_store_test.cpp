@@ -10,29 +10,38 @@
 #include <vector>
 
 #include "raster/kernels.h"
+#include "raster/policy.h"
 #include "raster/tiles.h"
 #include "support.h"
 
 namespace edgewise {
 namespace {
 
-TEST(TileStore, IsTheCallersChoiceOrStreamingIfTheFrameIsCleared) {
+TEST(TileStore, IsTheCallersChoiceOrStreamingIfTheFrameIsClearedOnOneThread) {
   constexpr int kSide = 2 * contract::kMaxTile, kLeg = 2000 * contract::kSub;
   const ScreenTriangle all_over{{0, kLeg, 0}, {0, 0, kLeg}, {9, 9, 9}, 5};
   Framebuffer frame(kSide, kSide);
   static std::atomic<int> streamed;
-  const auto tiles_streamed = [&](TileStore store, bool clear) {
+  const auto tiles_streamed = [&](TileStore store, bool clear, int threads) {
     streamed = 0;
     TileScratch scratch;
     StoredTriangles stored({&all_over, 1});
-    draw_in_tiles(stored, {.frame = frame.view(), .clear = clear}, {2, 64, resolve(SimdTarget::best)},
+    draw_in_tiles(stored, {.frame = frame.view(), .clear = clear}, {threads, 64, resolve(SimdTarget::best)},
                   {.tile_store = store}, scratch, [](const TileTask& task) { streamed += task.streaming; });
     return streamed.load();
   };
-  for (const bool clear : {true, false}) {
-    EXPECT_EQ(tiles_streamed(TileStore::cached, clear), 0);
-    EXPECT_EQ(tiles_streamed(TileStore::streaming, clear), 4);
-    EXPECT_EQ(tiles_streamed(TileStore::automatic, clear), clear ? 4 : 0);
+  for (const bool clear : {true, false})
+    for (const int threads : {1, 2}) {
+      EXPECT_EQ(tiles_streamed(TileStore::cached, clear, threads), 0);
+      EXPECT_EQ(tiles_streamed(TileStore::streaming, clear, threads), 4);
+      EXPECT_EQ(tiles_streamed(TileStore::automatic, clear, threads), clear && threads == 1 ? 4 : 0);
+    }
+}
+
+TEST(TileStore, AutomaticallyStreamsLargeFrames) {
+  for (const int threads : {1, 2}) {
+    EXPECT_TRUE(tiles_are_streamed(is_large(101, 200), threads));
+    EXPECT_EQ(tiles_are_streamed(is_large(100, 200), threads), threads == 1);
   }
 }
 
@@ -52,7 +61,7 @@ TEST(TileTasks, AreThoseOfThePart) {
     for (const TilesTask& task : scratch.tasks) list.push_back(task.cell);
     return list;
   };
-  constexpr int kClear = TilesTask::kClearEmpty;
+  constexpr int kClear = TilesTask::kInFrame;
   const std::span<const ScreenTriangle> none, one(&all_over, 1);
   using Cells = std::vector<int>;
   EXPECT_EQ(cells(one, 2 * kSide + 1, 2 * kSide, kSide - 1, kSide - 1, true), (Cells{0, 1, 2, 3, 4, 5}));
@@ -72,13 +81,13 @@ TEST(TileTasks, FillEmptyTilesInEvenStrips) {
         const CellGrid grid{100, height, size_log2, size_log2};
         StoredTriangles none({});
         ASSERT_TRUE(bins.build(none, grid, 1, resolve(SimdTarget::best), false));
-        list_tasks(bins, grid, {}, threads, tasks);
+        list_tasks(bins, grid, {}, threads, false, tasks);
         const std::string where = std::to_string(1 << size_log2) + " px, height " + std::to_string(height) +
                                   ", threads " + std::to_string(threads);
         int y = 0;
         std::vector<std::vector<int>> heights(static_cast<std::size_t>(grid.rows()));
         for (const TilesTask& task : tasks) {
-          ASSERT_EQ(task.cell, TilesTask::kClearEmpty);
+          ASSERT_EQ(task.cell, TilesTask::kInFrame);
           ASSERT_EQ(task.y0, y) << where;
           ASSERT_EQ(task.row, y >> size_log2) << where;
           y = task.y1;

@@ -47,6 +47,17 @@ class Bins {
     return true;
   }
 
+  // True if at most `most` triangles are listed for the cell, and it has no masks.
+  bool few(int cell, std::uint32_t most) const {
+    const auto c = static_cast<std::size_t>(cell);
+    std::uint64_t listed = 0;  // more than `most` where a slice has several segments
+    for (const Slice* slice : in_order_) {
+      if (slice->first[c] != kNone) listed += slice->cursor[c] - slice->first[c];
+      if (listed > most || (has_masks_ && !slice->masks.empty(c))) return false;
+    }
+    return true;
+  }
+
   // Consecutive indices of a cell: one segment of a list. `first_slot`: the slot of the first in the slice.
   struct Segment {
     std::span<const std::uint32_t> indices;

@@ -13,7 +13,7 @@
 //    blocks, so are occluded ones (HiZ, hiz-inl.h). Triangles that are occluded in the whole tile skip the
 //    test.
 // 5. Candidate blocks go into lists, which are drawn in submission order (tile_painter-inl.h).
-// 6. Small triangles arrive as coverage masks, made by binning (mask_finder.cpp), and are drawn without a
+// 6. Small triangles arrive as coverage masks, made by binning (packet_sorter.cpp), and are drawn without a
 //    branch (tile_blocks-inl.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/edges/tile_edges.cpp"

@@ -6,7 +6,7 @@
 // 2. Where the long spans of a vector of rows overlap, they form a rectangle, which is drawn at once in
 //    blocks. A block stores zmax and rejects occluded triangles as a whole (HiZ, hiz-inl.h). A triangle that
 //    is occluded in all blocks is not cut into spans. Blocks cut by a side of the frame occlude nothing.
-// 3. Small triangles may arrive as coverage masks (raster/binning/mask_finder.cpp).
+// 3. Small triangles may arrive as coverage masks (raster/binning/packet_sorter.cpp).
 #include <hwy/highway.h>
 
 #include <algorithm>
