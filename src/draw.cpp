@@ -1,4 +1,4 @@
-// The only file that knows both front end and backends.
+// The only file that knows the inside of both front end and backends.
 #include "edgewise/draw.h"
 
 #include "core/execution.h"
@@ -10,7 +10,8 @@ namespace edgewise {
 
 // Reaches what front end and backend do for draw() alone.
 struct DrawAccess {
-  // Draws triangles where they are made. Returns false, with the frame as it was, if that is not possible.
+  // Bins triangles where they are made, then draws them. Returns false, with the frame as it was, if that is
+  // not possible.
   static bool draw_source(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
                           Backend& backend, const FramePart& part, const Execution& execution) {
     TriangleSource* const source = frontend.start_source(drawable, options, execution);

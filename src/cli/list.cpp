@@ -34,7 +34,7 @@ std::vector<BackendInfo> backend_list(bool all) {
   return list;
 }
 
-nlohmann::json as_json(bool all) {
+nlohmann::json lists_as_json(bool all) {
   nlohmann::json lists;
   for (const SceneInfo& scene : builtin_scenes())
     lists["scenes"].push_back({{"name", scene.name}, {"summary", scene.summary}, {"stream", scene.stream}});
@@ -47,7 +47,7 @@ nlohmann::json as_json(bool all) {
   return lists;
 }
 
-std::string as_text(bool all) {
+std::string lists_as_text(bool all) {
   const auto line = [](std::string_view name, std::string_view summary) {
     return summary.empty() ? fmt::format("  {}\n", name) : fmt::format("  {:<21} {}\n", name, summary);
   };
@@ -78,7 +78,7 @@ Action add_list(CLI::App& command) {
   const auto all = std::make_shared<bool>(false);
   command.add_flag("--all", *all, "Also list compositions of the backends' parts");
   return [in_json, all] {
-    print(*in_json ? json_text(as_json(*all), 2) + "\n" : as_text(*all));
+    print(*in_json ? json_text(lists_as_json(*all), 2) + "\n" : lists_as_text(*all));
     return kDone;
   };
 }

@@ -24,7 +24,7 @@ class TriangleSource {
   // Called when all inputs are made, before anything is drawn. Throws std::invalid_argument if one was
   // invalid.
   virtual void finish() {}
-  // The screen triangles if they lie in memory, one per input. Else null.
+  // The screen triangles if they lie in memory, one per input. Else null, or if there are none.
   virtual const ScreenTriangle* stored() const { return nullptr; }
 };
 

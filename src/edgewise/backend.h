@@ -51,7 +51,7 @@ struct RenderPass {
   PixelRect scissor{};
 };
 
-// The intersection of frame and scissor, which a backend draws. It is not empty.
+// The intersection of frame and scissor. Backends draw none that is empty.
 struct FramePart {
   FrameView frame;     // ends at the scissor's right and lower sides
   int x0 = 0, y0 = 0;  // px, the first column and row
@@ -69,7 +69,8 @@ class Backend {
 
   // Draws into a frame as `pass` states. If the frame has no payload plane, only depth is drawn. Keeps no
   // reference to its arguments. Requires the ranges of screen_triangle.h, which are not checked. Frames of
-  // similar size and content allocate memory only in the first.
+  // similar size and content allocate memory only in the first; on several threads, which share work as they
+  // become idle, rarely in a later one.
   // Throws, before it writes or allocates anything, std::invalid_argument for an invalid frame or execution,
   // for planes that overlap, for a scissor of negative size, or for more than kMaxTriangles triangles. Throws
   // std::bad_alloc if memory runs out, and std::length_error if the tiles' triangle lists exceed 2^32
@@ -86,7 +87,7 @@ class Backend {
   // Whether frames may lack a payload plane. Otherwise the backend gets a scratch plane.
   virtual bool draws_depth_only() const { return false; }
   // Draws the triangles of a source. Returns false if it cannot, before it writes to the frame; then
-  // draw_checked() is called. Arguments are as there.
+  // the triangles are made again, and draw_checked() is called. Arguments are as there.
   virtual bool draw_source(TriangleSource&, const FramePart&, const Execution&) { return false; }
   // Called with checked arguments and a resolved `execution.target`.
   virtual void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,

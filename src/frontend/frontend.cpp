@@ -63,6 +63,7 @@ struct Frontend::State {
   TriangleMaker* maker = nullptr;  // of the last frame
   TriangleBuffers visible;
   Buffer<TriangleState> states;
+  std::vector<std::size_t> places;                   // of the workers' outputs in `visible`
   std::size_t unsnapped_count = 0, state_count = 0;  // valid ones
   FrontendStats stats;
   FrontendOptions options;
@@ -126,7 +127,7 @@ struct Frontend::State {
   // In each round, every worker copies what it made in the previous one to its place, and makes a range.
   std::size_t run_together(std::size_t length, std::size_t workers) {
     const std::size_t count = maker->size();
-    std::vector<std::size_t> places(workers);
+    places.assign(workers, 0);
     std::size_t total = 0;
     for (std::size_t round = 0;; round += workers * length) {
       parallel_for(static_cast<int>(workers), static_cast<int>(workers), [&](int worker) {

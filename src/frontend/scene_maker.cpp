@@ -135,6 +135,7 @@ void SceneMaker::make_visible(Worker& w, std::size_t begin, std::size_t end, Chu
   const std::size_t first = out.count;
   assemble_(task, begin, end, w.window.corners(task, begin, end, range, transform_), out);
   if (options_->payload == Payload::id) return;
+  // Until here the payload is the id. Colours replace it.
   const std::span made(out.triangles + first, out.count - first);
   if (options_->shade) return shade_(*w.light, made);
   for (ScreenTriangle& t : made) {

@@ -18,7 +18,7 @@ struct ClearTask {
   std::span<const Interval> columns;  // those that lie in the part are cleared
   int y0, y1;                         // px, the rows y0 … y1 - 1
   FramePart part;
-  bool streaming = false;  // requested
+  bool streaming = false;  // if the planes are aligned for it
 };
 using ClearKernel = void (*)(const ClearTask&);
 

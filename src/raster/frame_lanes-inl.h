@@ -59,8 +59,8 @@ HWY_INLINE void write(std::int32_t* depth, std::int32_t* payload, hn::Mask<D> co
   replace(payload, wins, colour);
 }
 
-// The vector of pixels that holds pixel x, moved left if it would pass the area's right end.
-HWY_INLINE int vector_at(int x, int right) {
+// The first pixel of the vector from pixel x on, moved left if it would pass the area's right end.
+HWY_INLINE int vector_from(int x, int right) {
   return std::min(x, right - kLanes);
 }
 HWY_INLINE hn::Mask<D> between(int begin, V x, int end) {
@@ -104,19 +104,19 @@ struct FrameBatch {
   }
 };
 
-// Draws a cell's triangles in submission order, by set_up_vector(task, indices, batch, k), which sets up a
-// vector of triangles as entries k … of a Batch, and draw(task, batch, k, triangle).
+// Draws a cell's triangles in submission order. A Batch derives from FrameBatch and has set_up(task, indices,
+// k), which sets up a vector of triangles as its entries k …, and draw(task, k, triangle).
 template <typename Batch>
 HWY_INLINE void draw_in_batches(const FrameTask& task) {
   const ScreenTriangle* const triangles = task.bins.triangles();
   task.bins.for_each_segment_ahead(task.cell, [&](const Bins::Segment& segment) {
     Batch batch;
     std::uint32_t left = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
-      return set_up_vector(task, padded + k, batch, k);
+      return batch.set_up(task, padded + k, k);
     });
     for (; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      draw(task, batch, k, triangles[segment.indices[static_cast<std::size_t>(k)]]);
+      batch.draw(task, k, triangles[segment.indices[static_cast<std::size_t>(k)]]);
     }
   });
   clear_upper_halves();

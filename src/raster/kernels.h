@@ -17,10 +17,11 @@ inline constexpr int kLongestVector = 16;  // px
 struct FrameTask {
   const Bins& bins;
   int cell;
-  // Ends at kLongestVector or further right. Its rows lie in one row of depth cells.
+  // Ends at kLongestVector or further right. Its rows lie in one row of depth cells; frame_edges takes at
+  // most 32 rows.
   //
-  // A vector of pixels begins at a multiple of its length or ends with the area. So it may begin left of the
-  // area, where it keeps what the frame holds. No other thread may draw there.
+  // The last vector of a row's pixels ends with the area. So it may begin left of the area, where it keeps
+  // what the frame holds. No other thread may draw there.
   contract::PixelBox area;
   FrameView frame;
 };
@@ -28,14 +29,13 @@ using FrameKernel = void (*)(const FrameTask&);
 
 // Draws the triangles of a tile in a buffer sized for the L1 cache, and stores the buffer to the frame.
 struct TileTask {
-  const ScreenTriangle* triangles;
   const Bins* bins;
   int cell;       // index of the tile in `bins`
   int x0, y0;     // px, the tile's first pixel; multiples of the tile's size
   int size_log2;  // px; at most 6
   FramePart part;
   bool hierarchical_depth;  // TileOptions::hierarchical_depth
-  bool streaming;           // requested
+  bool streaming;           // if the planes are aligned for it
 
   int size() const { return 1 << size_log2; }  // px
   // The tile's columns left() … width() - 1 and rows top() … height() - 1 are drawn, px. The kernel may also

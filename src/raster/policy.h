@@ -20,7 +20,7 @@ constexpr bool tiles_are_streamed(bool large, int threads) {
 }
 
 // A tile is light if it has no more triangles than this, no masks, and is not cut by the frame's right side.
-// If the frame is not large, light tiles are cleared together with the empty ones of their row and drawn in
+// Unless clears are streamed, light tiles are cleared together with the empty ones of their row and drawn in
 // the frame. In buffers, `cube` takes 1.1 times as long, on one thread and on two, and `cubes` 1.05 times.
 inline constexpr std::uint32_t kLightTriangles = 2;
 

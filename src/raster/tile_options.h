@@ -11,7 +11,7 @@ namespace edgewise {
 enum class TileStore {
   cached,
   streaming,
-  automatic  // raster/policy.h
+  automatic  // raster/policy.h; `streaming` leaves no tile light
 };
 
 struct TileOptions {

@@ -28,14 +28,14 @@ struct InFrame {
   const ClearKernel clear;
   const FrameKernel draw_light;  // null: no tile is light
 
-  void operator()(const TilesTask& task) const {
+  void operator()(const TileJob& job) const {
     constexpr int kLeastSide = 16;
     Interval intervals[contract::kMaxImageSide / kLeastSide / 2 + 1];  // of consecutive tiles
     std::size_t count = 0;
     const int side = 1 << grid.cell_w_log2;
     const auto for_each_tile = [&](auto&& visit) {  // visit(its first column, its cell, whether it is empty)
       for (int x = part.x0 & -side; x < grid.width; x += side) {
-        const int cell = task.row * grid.columns() + (x >> grid.cell_w_log2);
+        const int cell = job.row * grid.columns() + (x >> grid.cell_w_log2);
         const bool is_empty = bins.empty(cell);
         if (is_empty || (draw_light != nullptr && is_light(bins, grid, cell))) visit(x, cell, is_empty);
       }
@@ -44,24 +44,24 @@ struct InFrame {
       if (count == 0 || intervals[count - 1].end != x) intervals[count++].begin = x;
       intervals[count - 1].end = x + side;
     });
-    if (part.clear) clear({std::span(intervals).first(count), task.y0, task.y1, part, streaming});
+    if (part.clear) clear({std::span(intervals).first(count), job.y0, job.y1, part, streaming});
     if (draw_light == nullptr) return;
     for_each_tile([&](int x, int cell, bool is_empty) {
-      if (!is_empty) draw_light({bins, cell, {std::max(x, part.x0), task.y0, x + side, task.y1}, part.frame});
+      if (!is_empty) draw_light({bins, cell, {std::max(x, part.x0), job.y0, x + side, job.y1}, part.frame});
     });
   }
 };
 
 }  // namespace
 
-void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads, bool with_light,
-                std::vector<TilesTask>& tasks) {
-  constexpr int kLeastRows = 8;  // px, of a task that clears
+void list_jobs(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads, bool with_light,
+               std::vector<TileJob>& jobs) {
+  constexpr int kLeastRows = 8;  // px, of a job in the frame
   const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
   const int most_strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
-  tasks.clear();
+  jobs.clear();
   // For any frame of this size, so that later ones allocate nothing.
-  tasks.reserve(static_cast<std::size_t>((columns + most_strips) * rows));
+  jobs.reserve(static_cast<std::size_t>((columns + most_strips) * rows));
   for (int row = part.y0 / side; row < rows; ++row) {
     const int y0 = std::max(row * side, part.y0), height = std::min((row + 1) * side, grid.height) - y0;
     bool any_in_frame = false;
@@ -71,11 +71,11 @@ void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, i
       if (is_empty || (with_light && is_light(bins, grid, cell)))
         any_in_frame |= part.clear || !is_empty;
       else
-        tasks.push_back({cell, row, y0, y0 + height});
+        jobs.push_back({cell, row, y0, y0 + height});
     }
     const int strips = any_in_frame ? std::clamp(height / kLeastRows, 1, most_strips) : 0;
     for (int i = 0; i < strips; ++i)
-      tasks.push_back({TilesTask::kInFrame, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
+      jobs.push_back({TileJob::kInFrame, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
   }
 }
 
@@ -98,15 +98,15 @@ bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execu
   const bool stream_tiles = is_streamed(part.clear && tiles_are_streamed(large, threads)),
              stream_clears = is_streamed(large);
   if (stream_clears || frame.payload == nullptr) draw_light = nullptr;
-  list_tasks(bins, grid, part, threads, draw_light != nullptr, scratch.tasks);
+  list_jobs(bins, grid, part, threads, draw_light != nullptr, scratch.jobs);
   const InFrame draw_in_frame{bins, grid, part, stream_clears, clear_kernel(target), draw_light};
-  parallel_for(threads, static_cast<int>(scratch.tasks.size()), [&](int i) {
-    const TilesTask& task = scratch.tasks[static_cast<std::size_t>(i)];
-    if (task.cell == TilesTask::kInFrame)
-      draw_in_frame(task);
+  parallel_for(threads, static_cast<int>(scratch.jobs.size()), [&](int i) {
+    const TileJob& job = scratch.jobs[static_cast<std::size_t>(i)];
+    if (job.cell == TileJob::kInFrame)
+      draw_in_frame(job);
     else
-      fill({bins.triangles(), &bins, task.cell, task.cell % grid.columns() << size_log2,
-            task.row << size_log2, size_log2, part, options.hierarchical_depth, stream_tiles});
+      fill({&bins, job.cell, job.cell % grid.columns() << size_log2, job.row << size_log2, size_log2, part,
+            options.hierarchical_depth, stream_tiles});
   });
   return true;
 }

@@ -13,27 +13,27 @@
 namespace edgewise {
 
 // Draws a tile in a buffer, or clears the empty and light tiles of a row of tiles and draws the light ones.
-struct TilesTask {
+struct TileJob {
   static constexpr int kInFrame = -1;
   int cell;    // of the tile in the bins; kInFrame: the pixel rows y0 … y1 - 1 of the row's other tiles
   int row;     // of tiles
-  int y0, y1;  // px, in the part
+  int y0, y1;  // px, in the part; of a tile in a buffer, all its rows there
 };
 
-// The tasks of a part of a frame. A row of tiles has a task for each tile drawn in a buffer, and then one, or
+// The jobs of a part of a frame. A row of tiles has a job for each tile drawn in a buffer, and then one, or
 // several on many threads, for its other tiles, unless nothing is cleared or drawn there. `grid`: of the
 // part's frame. `with_light`: whether tiles may be light.
-void list_tasks(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads, bool with_light,
-                std::vector<TilesTask>& tasks);
+void list_jobs(const Bins& bins, const CellGrid& grid, const FramePart& part, int threads, bool with_light,
+               std::vector<TileJob>& jobs);
 
 // What drawing in tiles keeps between frames.
 struct TileScratch {
   Bins bins;
-  std::vector<TilesTask> tasks;
+  std::vector<TileJob> jobs;
 };
 
-// `draw_light` draws light tiles. If it is null, or the frame is large or has no payload plane, no tile is
-// light. Returns false if Bins::build() does; then nothing is drawn.
+// `draw_light` draws light tiles. If it is null, or clears are streamed, or the frame has no payload plane,
+// no tile is light. Returns false if Bins::build() does; then nothing is drawn.
 bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execution& execution,
                    const TileOptions& options, TileScratch& scratch, TileKernel fill,
                    FrameKernel draw_light = nullptr);

@@ -309,9 +309,13 @@ TEST(RandomFindings, IncludeAFrontEndThatIsWrongWithMatrices) {
 
 TEST(RandomFindings, IncludeAWrongWholeFrame) {
   const TempDir folder;
-  Plan plan = plan_with<testing::IgnoresSources>(14, 120);
-  plan.failure_folder = folder.path() / "failures";
-  const std::string finding = finding_with(plan, ", whole frame) differs from scanline");
+  std::string finding;  // a scene has no file
+  for (std::uint64_t seed = 14; finding.find(" (stream)") == finding.npos; ++seed) {
+    ASSERT_LT(seed, 40u);
+    Plan plan = plan_with<testing::IgnoresSources>(seed, 120);
+    plan.failure_folder = folder.path() / "failures";
+    finding = finding_with(plan, ", whole frame) differs from scanline");
+  }
   EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u) << finding;
 }
 

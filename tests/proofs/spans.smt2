@@ -1,4 +1,4 @@
-; Spans, by edges walked in binary fractions (line_lanes-inl.h) or by division (edge_walk.h). Theories:
+; Spans, by edges walked in binary fractions (line_lanes-inl.h) or by division (integer_spans.h). Theories:
 ; nonlinear real arithmetic, with a rounding to double as a factor 1 + e, |e| <= 2^-53; linear real arithmetic.
 ;
 ; In units of 2^-43 px, a step or start is a quotient of integers, computed with two roundings to double (the quotient

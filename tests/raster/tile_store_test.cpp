@@ -58,10 +58,10 @@ TEST(TileTasks, AreThoseOfThePart) {
     StoredTriangles stored(triangles);
     draw_in_tiles(stored, part, {1, kSide, resolve(SimdTarget::best)}, {}, scratch, [](const TileTask&) {});
     std::vector<int> list;
-    for (const TilesTask& task : scratch.tasks) list.push_back(task.cell);
+    for (const TileJob& task : scratch.jobs) list.push_back(task.cell);
     return list;
   };
-  constexpr int kClear = TilesTask::kInFrame;
+  constexpr int kClear = TileJob::kInFrame;
   const std::span<const ScreenTriangle> none, one(&all_over, 1);
   using Cells = std::vector<int>;
   EXPECT_EQ(cells(one, 2 * kSide + 1, 2 * kSide, kSide - 1, kSide - 1, true), (Cells{0, 1, 2, 3, 4, 5}));
@@ -74,20 +74,20 @@ TEST(TileTasks, AreThoseOfThePart) {
 // About 4 strips per thread in all; a row has as many as its height and this allow, at least 8 px each.
 TEST(TileTasks, FillEmptyTilesInEvenStrips) {
   Bins bins;
-  std::vector<TilesTask> tasks;
+  std::vector<TileJob> tasks;
   for (const int size_log2 : {4, 5, 6})
     for (int height = 1; height <= 3 << size_log2; ++height)
       for (int threads = 1; threads <= 24; ++threads) {
         const CellGrid grid{100, height, size_log2, size_log2};
         StoredTriangles none({});
         ASSERT_TRUE(bins.build(none, grid, 1, resolve(SimdTarget::best), false));
-        list_tasks(bins, grid, {}, threads, false, tasks);
+        list_jobs(bins, grid, {}, threads, false, tasks);
         const std::string where = std::to_string(1 << size_log2) + " px, height " + std::to_string(height) +
                                   ", threads " + std::to_string(threads);
         int y = 0;
         std::vector<std::vector<int>> heights(static_cast<std::size_t>(grid.rows()));
-        for (const TilesTask& task : tasks) {
-          ASSERT_EQ(task.cell, TilesTask::kInFrame);
+        for (const TileJob& task : tasks) {
+          ASSERT_EQ(task.cell, TileJob::kInFrame);
           ASSERT_EQ(task.y0, y) << where;
           ASSERT_EQ(task.row, y >> size_log2) << where;
           y = task.y1;

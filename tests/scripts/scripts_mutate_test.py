@@ -38,7 +38,7 @@ class MutateTest(FolderTest):
         result = run(SCRIPTS / "mutate", "--list")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLessEqual(len(result.stdout.splitlines()), 63)
-        for part in ("contract.h", "oracle.cpp", "frame_boxes.cpp", "tile_", "edge_walk.h", "frame_lanes", "line_lanes", "bins", "mask_", "clip.cpp",
+        for part in ("contract.h", "oracle.cpp", "frame_boxes.cpp", "tile_", "integer_spans.h", "frame_lanes", "line_lanes", "bins", "mask_", "clip.cpp",
                      "one_by_one.cpp", "frontend/frontend.cpp", "trigonometry.cpp", "core/little_endian.h", "portable.cpp", "noise.py"):
             self.assertIn(part, result.stdout)
 

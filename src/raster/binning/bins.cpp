@@ -130,49 +130,6 @@ void Bins::Slice::bin_packet(const ScreenTriangle* packet, const SortedPacket& s
   }
 }
 
-struct Bins::Work {
-  TriangleSource& source;
-  const CellGrid& grid;
-  const PacketSorter sort;
-  const bool with_masks;
-  const std::size_t masks_per_slice;      // expected
-  std::atomic<std::size_t> next_kept{0};  // the first free place in kept_
-  std::atomic<bool> all_fit{true};
-};
-
-bool Bins::bin_slice(Work& work, int worker, std::size_t index) {
-  // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
-  constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
-  constexpr std::size_t kKeptAtOnce = 4 * TriangleSource::kInputsAtOnce;
-  const CellGrid& grid = work.grid;
-  const auto cells = static_cast<std::size_t>(grid.cells());
-  const bool stored = work.source.stored() != nullptr;
-  Slice& slice = slices_[index];
-  slice.reset(cells);
-  slice.kept = stored ? nullptr : kept_.data();
-  slice.next_kept = slice.end_kept = 0;
-  if (work.with_masks) slice.masks.reset(cells, work.masks_per_slice);
-  const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
-  std::size_t max_mask_bytes = pixels * kMaskBytesPerPixel / slices_.size();
-  SortedPacket sorted;
-  while (const auto inputs = ranges_.next(index)) {
-    const auto triangles = work.source.make(worker, inputs->begin, inputs->end);
-    if (!stored && triangles.size() > slice.end_kept - slice.next_kept) {
-      const std::size_t room = std::max(kKeptAtOnce, triangles.size());
-      slice.next_kept = work.next_kept.fetch_add(room, std::memory_order_relaxed);
-      slice.end_kept = slice.next_kept + room;
-      if (slice.end_kept > kept_.capacity()) return false;
-    }
-    max_mask_bytes += (inputs->end - inputs->begin) * kMaskBytesPerTriangle;
-    for_each_packet(triangles, [&](const ScreenTriangle* packet, std::size_t at) {
-      const bool with_masks = work.with_masks && slice.masks.used_bytes() <= max_mask_bytes;
-      work.sort(packet, grid, with_masks, stored, sorted);  // made triangles are cached: no prefetch
-      slice.bin_packet(packet, sorted, inputs->begin + at, grid);
-    });
-  }
-  return true;
-}
-
 namespace {
 
 // How many slices there are at first and at most, and the inputs that a worker takes of one at once.
@@ -198,6 +155,49 @@ Slicing slicing_of(std::size_t inputs, std::size_t cells, std::size_t threads) {
 
 }  // namespace
 
+struct Bins::Work {
+  TriangleSource& source;
+  const CellGrid& grid;
+  const PacketSorter sort;
+  const bool with_masks, stored;  // stored: not made, so not kept either
+  const Slicing slicing;
+  std::atomic<std::size_t> next_kept{0};  // the first free place in kept_
+  std::atomic<bool> all_fit{true};
+};
+
+bool Bins::bin_slice(Work& work, int worker, std::size_t index) {
+  // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
+  constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
+  constexpr std::size_t kKeptAtOnce = 4 * TriangleSource::kInputsAtOnce;
+  const CellGrid& grid = work.grid;
+  const auto cells = static_cast<std::size_t>(grid.cells());
+  const bool stored = work.stored;
+  Slice& slice = slices_[index];
+  slice.reset(cells);
+  slice.kept = stored ? nullptr : kept_.data();
+  slice.next_kept = slice.end_kept = 0;
+  if (work.with_masks) slice.masks.reset(cells, work.source.size() / work.slicing.first);
+  const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
+  std::size_t max_mask_bytes = pixels * kMaskBytesPerPixel / work.slicing.most;
+  SortedPacket sorted;
+  while (const auto inputs = work.all_fit ? ranges_.next(index) : std::nullopt) {
+    const auto triangles = work.source.make(worker, inputs->begin, inputs->end);
+    if (!stored && triangles.size() > slice.end_kept - slice.next_kept) {
+      const std::size_t room = std::max(kKeptAtOnce, triangles.size());
+      slice.next_kept = work.next_kept.fetch_add(room, std::memory_order_relaxed);
+      slice.end_kept = slice.next_kept + room;
+      if (slice.end_kept > kept_.capacity()) return false;
+    }
+    max_mask_bytes += (inputs->end - inputs->begin) * kMaskBytesPerTriangle;
+    for_each_packet(triangles, [&](const ScreenTriangle* packet, std::size_t at) {
+      const bool with_masks = work.with_masks && slice.masks.used_bytes() <= max_mask_bytes;
+      work.sort(packet, grid, with_masks, stored, sorted);  // made triangles are cached: no prefetch
+      slice.bin_packet(packet, sorted, inputs->begin + at, grid);
+    });
+  }
+  return true;
+}
+
 bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                  bool with_masks) {
   const std::size_t count = source.size();
@@ -205,10 +205,11 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
       slicing_of(count, static_cast<std::size_t>(grid.cells()), static_cast<std::size_t>(threads));
   if (slices_.size() < slicing.most) slices_.resize(slicing.most);
   ranges_.start(count, slicing.at_once, slicing.first, slicing.most);
+  const bool stored = source.stored() != nullptr || count == 0;
   // Clipping may double the triangles. The memory is not touched before it is used.
-  if (source.stored() == nullptr) kept_.reserve(2 * count + slicing.most * 7 * TriangleSource::kInputsAtOnce);
-  triangles_ = source.stored() != nullptr ? source.stored() : kept_.data();
-  Work work{source, grid, packet_sorter(target), with_masks, count / slicing.first};
+  if (!stored) kept_.reserve(2 * count + slicing.most * 7 * TriangleSource::kInputsAtOnce);
+  triangles_ = stored ? source.stored() : kept_.data();
+  Work work{source, grid, packet_sorter(target), with_masks, stored, slicing};
   parallel_for(threads, static_cast<int>(slicing.first), [&](int worker) {
     for (std::optional slice{static_cast<std::size_t>(worker)}; slice; slice = ranges_.split())
       if (!bin_slice(work, worker, *slice)) {

@@ -47,7 +47,7 @@ class Bins {
     return true;
   }
 
-  // True if at most `most` triangles are listed for the cell, and it has no masks.
+  // True if at most `most` triangles, of at most 31, are listed for the cell, and it has no masks.
   bool few(int cell, std::uint32_t most) const {
     const auto c = static_cast<std::size_t>(cell);
     std::uint64_t listed = 0;  // more than `most` where a slice has several segments

@@ -19,28 +19,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-struct FrameEdges : FrameBatch {
-  struct {
-    std::int64_t first[kBatch];         // biased value (rule 4) at the box's first sample
-    std::int32_t a[kBatch], b[kBatch];  // steps per sub-unit
-  } edge[3];
-};
-
-// Sets up a vector of triangles as entries k … of the batch.
-HWY_INLINE std::uint32_t set_up_vector(const FrameTask& task, const std::uint32_t* indices, FrameEdges& out,
-                                       int k) {
-  const TriangleLanes t = load(task.bins.triangles(), indices);
-  const BoxLanes box(t.x, t.y, task.area);
-  const Area area = area_of(t);
-  const auto sample = [](V32 px) { return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(kHalf)); };
-  for (int i = 0; i < 3; ++i) {
-    const EdgeLanes edge(t, area, i, sample(box.x0), sample(box.y0));
-    hn::StoreU(edge.value, D64{}, out.edge[i].first + k);
-    store(edge.a, out.edge[i].a + k), store(edge.b, out.edge[i].b + k);
-  }
-  return out.store_vector(t, box, area, task.bins.triangles(), indices, k);
-}
-
 // Shifts an edge value (rule 5), and clamps it to 2^30. In a depth cell and a vector of pixels beside it, 79
 // px to the side and 32 down, a value changes by at most 111 * 2^23 < 2^30, so a clamped one keeps its sign,
 // and does not overflow.
@@ -49,43 +27,65 @@ inline std::int32_t in_int32(std::int64_t value) {
   return static_cast<std::int32_t>(std::clamp(value >> kSubBits, -kLimit, kLimit));
 }
 
-// Draws triangle k of a batch, cell by cell of depth (rule 6), and there column by column of vectors.
-HWY_INLINE void draw(const FrameTask& task, const FrameEdges& batch, int k, const ScreenTriangle& triangle) {
-  count(Part::frame_edges);
-  const D d;
-  const V lane = hn::Iota(d, 0), colour = set(triangle.payload);
-  const PixelBox box = batch.box(k);
-  const BoxDepth depth(batch.plane(k), box);
-  const V zx = set(depth.zx), zy = hn::Set(d, batch.zy[k]);
-  for (int begin = box.x0, end; begin < box.x1; begin = end) {
-    const int cell = begin & -kDepthCell;
-    end = std::min(box.x1, cell + kDepthCell);
-    const V z_in_cell = set(depth.in_cell(begin, box.y0));
-    std::int32_t first[3];  // at the part's first sample
+struct FrameEdges : FrameBatch {
+  struct {
+    std::int64_t first[kBatch];         // biased value (rule 4) at the box's first sample
+    std::int32_t a[kBatch], b[kBatch];  // steps per sub-unit
+  } edge[3];
+
+  HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
+    const TriangleLanes t = load(task.bins.triangles(), indices);
+    const BoxLanes in_area(t.x, t.y, task.area);
+    const Area area = area_of(t);
+    const auto sample = [](V32 px) { return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(kHalf)); };
     for (int i = 0; i < 3; ++i) {
-      const auto& edge = batch.edge[i];
-      first[i] = in_int32(edge.first[k] + std::int64_t{edge.a[k]} * kSub * (begin - box.x0));
+      const EdgeLanes lanes(t, area, i, sample(in_area.x0), sample(in_area.y0));
+      hn::StoreU(lanes.value, D64{}, edge[i].first + k);
+      store(lanes.a, edge[i].a + k), store(lanes.b, edge[i].b + k);
     }
-    for (int x = begin; x < end; x += kLanes) {
-      const int at = vector_at(x, task.area.x1);
-      const V px = hn::Add(lane, hn::Set(d, at)), from_begin = hn::Sub(px, hn::Set(d, begin));
-      const auto in_part = between(begin, px, end);
+    return store_vector(t, in_area, area, task.bins.triangles(), indices, k);
+  }
+
+  HWY_INLINE void draw(const FrameTask& task, int k, const ScreenTriangle& triangle) const {
+    count(Part::frame_edges);
+    const PixelBox in_area = box(k);
+    const BoxDepth depth(plane(k), in_area);
+    for (int x = in_area.x0, end; x < in_area.x1; x = end) {
+      end = std::min(in_area.x1, (x & -kDepthCell) + kDepthCell);
+      draw_piece(task, k, {x, in_area.y0, end, in_area.y1}, depth, triangle.payload);
+    }
+  }
+
+ private:
+  // Draws the part of the triangle's box that lies in one depth cell (rule 6), column by column of vectors.
+  HWY_INLINE void draw_piece(const FrameTask& task, int k, const PixelBox& piece, const BoxDepth& depth,
+                             std::uint32_t payload) const {
+    const D d;
+    const V lane = hn::Iota(d, 0), colour = set(payload), z_right = set(depth.zx), z_down = hn::Set(d, zy[k]);
+    const V z_in_cell = set(depth.in_cell(piece.x0, piece.y0)), cell = hn::Set(d, piece.x0 & -kDepthCell);
+    std::int32_t first[3];  // at the piece's first sample
+    for (int i = 0; i < 3; ++i)
+      first[i] = in_int32(edge[i].first[k] + std::int64_t{edge[i].a[k]} * kSub * (piece.x0 - x0[k]));
+    for (int x = piece.x0; x < piece.x1; x += kLanes) {
+      const int at = vector_from(x, task.area.x1);
+      const V px = hn::Add(lane, hn::Set(d, at)), from_first = hn::Sub(px, hn::Set(d, piece.x0));
+      const auto in_piece = between(x, px, piece.x1);
       V value[3];
       for (int i = 0; i < 3; ++i)
-        value[i] = hn::Add(hn::Set(d, first[i]), hn::Mul(from_begin, hn::Set(d, batch.edge[i].a[k])));
-      V z = hn::Add(z_in_cell, hn::Mul(hn::Sub(px, hn::Set(d, cell)), zx));
-      FrameRow row(task.frame, box.y0);
-      for (int y = box.y0; y < box.y1; ++y) {
+        value[i] = hn::Add(hn::Set(d, first[i]), hn::Mul(from_first, hn::Set(d, edge[i].a[k])));
+      V z = hn::Add(z_in_cell, hn::Mul(hn::Sub(px, cell), z_right));
+      FrameRow row(task.frame, piece.y0);
+      for (int y = piece.y0; y < piece.y1; ++y) {
         const V any_negative = hn::Or(hn::Or(value[0], value[1]), value[2]);
-        const auto covered = hn::And(in_part, hn::Gt(any_negative, hn::Set(d, -1)));
+        const auto covered = hn::And(in_piece, hn::Gt(any_negative, hn::Set(d, -1)));
         write(row.depth + at, row.payload + at, covered, z, colour);
-        for (int i = 0; i < 3; ++i) value[i] = hn::Add(value[i], hn::Set(d, batch.edge[i].b[k]));
-        z = hn::Add(z, zy);
+        for (int i = 0; i < 3; ++i) value[i] = hn::Add(value[i], hn::Set(d, edge[i].b[k]));
+        z = hn::Add(z, z_down);
         row.depth += task.frame.stride, row.payload += task.frame.stride;
       }
     }
   }
-}
+};
 
 void draw_edges_in_frame(const FrameTask& task) {
   draw_in_batches<FrameEdges>(task);

@@ -71,7 +71,7 @@ inline std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks, s
 
 // Draws a tile's triangles and coverage masks in submission order.
 //
-// Blocks are drawn in loops over lists, so two stores hold back work: `small_`, and `waiting_`, the candidate
+// Blocks are drawn in loops over lists, so two queues hold back work: `small_`, and `waiting_`, the candidate
 // blocks of the last large triangle. At most one of them holds work: each is drawn before work is added to
 // the other, and both are drawn before masks.
 template <class Numbers>

@@ -153,7 +153,7 @@ HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes&
 template <class Numbers>
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices,
                                        Batch<Numbers>& out, int k) {
-  const TriangleLanes t = load(task.triangles, indices);
+  const TriangleLanes t = load(task.bins->triangles(), indices);
   const Area area = area_of(t);
   const BoxLanes box(t.x, t.y, task.box());
   const auto block = [](V32 px, int first_px) { return hn::ShiftRight<2>(hn::Sub(px, set32(first_px))); };
@@ -176,7 +176,7 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   store(bx0, out.bx0 + k), store(by0, out.by0 + k), store(bx1, out.bx1 + k), store(by1, out.by1 + k);
   for (std::uint32_t inexact = drawn & ~exact; inexact != 0; inexact &= inexact - 1) {
     const int lane = std::countr_zero(inexact), at = k + lane;
-    const ScreenTriangle& triangle = task.triangles[indices[lane]];
+    const ScreenTriangle& triangle = task.bins->triangles()[indices[lane]];
     const DepthPlane plane = make_depth(orient(triangle));
     const std::uint32_t zx = plane.zx, zy = plane.zy;
     out.depth.x[at] = wrap(zx), out.depth.y[at] = wrap(zy);

@@ -72,7 +72,7 @@ class HiZ {
   }
 
   alignas(64) std::int32_t zmax_[kCapacity];
-  int farthest_block_;  // had the largest zmax at the last search: decides largest calls of occludes()
+  int farthest_block_;  // had the largest zmax at the last search: decides most calls of occludes()
 };
 
 }  // namespace HWY_NAMESPACE

@@ -99,7 +99,7 @@ HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
   return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(D64{})));
 }
 
-// Loads the triangles with these indices, one per lane of V64.
+// Loads the triangles with these indices, one per lane of V64: each fills both halves of its lane.
 HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32_t* index) {
   constexpr int kTriangles = static_cast<int>(hn::MaxLanes(D64{}));
   return load_triangles([&](int lane) { return triangles + index[lane * kTriangles / kLanes]; });

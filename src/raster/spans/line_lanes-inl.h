@@ -5,7 +5,7 @@
 // pixel whose sample is not left of it is the ceiling of v = (x - 128) / 256. A span goes from the largest of
 // these pixels of the left edges to the smallest of the right ones, over the rows whose samples lie in the
 // triangle's box. It is half open in both directions, which is the top-left rule (rule 4). Past its end, an
-// edge's line continues outside the triangle, so every row uses all edges.
+// edge's line does not cut into the triangle, so every row uses all edges.
 //
 // Binary fractions with enough bits walk an edge exactly. v is a multiple of 1 / (256 |dy|) >= 2^-31 px, or
 // 2^12 units of 2^-43 px. Let u be the sum of a start and some steps, less than 1300 units away from v. Then
@@ -18,7 +18,8 @@
 //   2^18 + 2^17 px.
 // - Start, steps and the at most 2^15 px from vertex to area sum up to less than 2^20 px = 2^63 units.
 // An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. The spans of its
-// triangle are found by integer divisions (raster/spans/edge_walk.h). proofs/spans.smt2 proves these claims.
+// triangle are found by integer divisions (raster/spans/integer_spans.h). proofs/spans.smt2 proves these
+// claims.
 #include <hwy/highway.h>
 
 #include <algorithm>

@@ -41,7 +41,7 @@ struct SpanBatch {
 // Sets up a vector of triangles as entries k … of the batch. Returns the bits of those that are drawn.
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
                                        int k) {
-  const TriangleLanes t = load(task.triangles, indices);
+  const TriangleLanes t = load(task.bins->triangles(), indices);
   const BoxLanes box(t.x, t.y, task.box());
   const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
   const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));

@@ -19,7 +19,7 @@
 #include "edgewise/contract.h"
 #include "raster/fill_counts.h"
 #include "raster/kernels.h"
-#include "raster/spans/edge_walk.h"
+#include "raster/spans/integer_spans.h"
 #include "raster/spans/span_list-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -60,7 +60,7 @@ class SpanPainter {
       }
 #endif
       list_.draw();
-      draw_one(task_.triangles[segment.indices[in_segment]], k);
+      draw_one(task_.bins->triangles()[segment.indices[in_segment]], k);
     }
     list_.draw();
   }

@@ -21,7 +21,7 @@ inline std::int64_t first_right_of(std::int32_t px, std::int32_t py, std::int32_
 
 // Calls span(y, begin, end) for each row of a box inside the triangle's pixel box: of row y, the triangle
 // covers the box's pixels begin … end - 1, and none if begin >= end. Spans and boxes are half open, which is
-// the top-left rule (rule 4). Past its end, an edge's line continues outside the triangle, so every row uses
+// the top-left rule (rule 4). Past its end, an edge's line does not cut into the triangle, so every row uses
 // all edges. Clockwise on a y-down screen: an edge that goes up is on the left.
 template <typename Span>
 void for_each_span(const contract::Oriented& t, const contract::PixelBox& box, Span&& span) {
