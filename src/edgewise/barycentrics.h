@@ -86,8 +86,7 @@ namespace contract {
 // In a scene, w_i is rounded. With a relative error of w of at most e, each c_k errs by up to e:
 // - u changes by u (1 - u) 2 e / (1 - e) at most, and the distance by e / (1 - e).
 // - Let D be the vertex's distance from o (rule 10), and Lw the length of w's coefficients: 1 for a Camera
-// and
-//   an unscaled instance.
+//   and an unscaled instance.
 // - In units of 2^-24, the first three terms of w are rounded six times. They are at most Lw times the length
 //   of d, which is at most 2 D. The fourth is rounded twice and is at most Lw D.
 // - The sum is 14 Lw D. So e / (1 - e) < 2^-20 Lw D / w while e < 1/16, and while o is at most 2^24 D away
