@@ -310,17 +310,14 @@ bool in_quick_run(const Row& row) {
 
 std::vector<Cell> cells() {
   std::vector<Cell> all;
-  for (const BackendInfo& composition : compositions()) {
-    const std::string_view name = composition.name, traversal = name.substr(0, name.find('+')),
-                           parts = name.substr(traversal.size() + 1), fill = parts.substr(0, parts.find('+')),
-                           with = parts.substr(std::min(fill.size() + 1, parts.size()));
-    if (with == "masks") continue;  // masks join HiZ
-    for (const SimdTarget target : {SimdTarget::scalar, SimdTarget::best})
-      if (with.empty() || target == SimdTarget::best)  // both need vectors
-        all.push_back({&composition, target,
-                       fmt::format("traversal:{}/fill:{}/simd:{}{}{}", traversal, fill,
-                                   name_of(resolve(target)), with.empty() ? "" : "/with:", with)});
-  }
+  for (const std::string traversal : {"bands", "tiles"})
+    for (const std::string fill : {"spans", "edges"})
+      for (const std::string with : {"", "hiz", "hiz+masks"})
+        for (const SimdTarget target : {SimdTarget::scalar, SimdTarget::best})
+          if (with.empty() || (traversal == "tiles" && target == SimdTarget::best))  // both need vectors
+            all.push_back({&find_backend(traversal + "+" + fill + (with.empty() ? "" : "+" + with)), target,
+                           fmt::format("traversal:{}/fill:{}/simd:{}{}", traversal, fill,
+                                       name_of(resolve(target)), with.empty() ? "" : "/with:" + with)});
   return all;
 }
 

@@ -37,7 +37,7 @@ struct Cell {
   SimdTarget target;    // scalar or best
   std::string factors;  // "traversal:tiles/fill:spans/simd:avx512/with:hiz"
 };
-// Those that differ from another one in one factor.
+// The twelve cells.
 std::vector<Cell> cells();
 
 // Whether a quick run times this row. Nothing else decides what it leaves out.

@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import textwrap
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -330,13 +329,13 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
 
 
 def means(ratios):
-    """Lines of the geometric means of {row: ratio}: of each backend's rows, whole frames included, and of all."""
-    backends = {}
+    """A line of the geometric means of {row: ratio}: of the rows whose names begin alike, up to the first "/", whole frames
+    included, and of all."""
+    groups = {}
     for name, ratio in ratios.items():
-        backends.setdefault(name.split("/")[0].removesuffix("+frontend"), []).append(ratio)
-    told = [f"{name}\N{NO-BREAK SPACE}{geometric_mean(of):.3f}" for name, of in (*sorted(backends.items()), ("all", ratios.values()))]
-    lines = textwrap.fill("Geometric means of the ratios: " + ", ".join(told), 80, break_on_hyphens=False)
-    return lines.replace("\N{NO-BREAK SPACE}", " ")
+        groups.setdefault(name.split("/")[0].removesuffix("+frontend"), []).append(ratio)
+    told = [f"{name} {geometric_mean(of):.3f}" for name, of in (*sorted(groups.items()), ("all", ratios.values()))]
+    return "Geometric means of the ratios: " + ", ".join(told)
 
 
 def print_compared(rows, listed, verdicts=VERDICTS):

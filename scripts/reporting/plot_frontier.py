@@ -95,9 +95,7 @@ def frontier(accuracy, bench, folder, caption):
     shown = {method.name for method in panels["simd"]}
     twelve = "".join(f"Tiled, 12 bits, not on the front: the wrong pixels of {pixels} at the speed of {speed}, whose edges count in 1/4096 px. "
                      for speed, pixels in TWELVE_BITS.items() if speed in shown)
-    widest = ("With SIMD, scanline tests narrow triangles by edge functions; here all are narrow: no side is over "
-              f"{max(scene.largest_side_px for scene in timed_scenes(accuracy)):.0f} px. ")
-    notes = (f"{twelve}{widest}{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
+    notes = (f"{twelve}{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
              f"Left out: from cracks, scenes with fewer than {short(LEAST_CROSSINGS)} crossings of shared edges; from wrong pixels, scenes with under 1 % of the largest scene's crossings; for 32-bit methods, scenes beyond their range.\n{caption}")
     above, below = 1.2 + head_in(subtitle), foot_in(notes)
     figure, axes_of = plt.subplots(1, 2, sharey=True, figsize=(WIDTH_IN, above + below + 4.4))

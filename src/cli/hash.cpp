@@ -105,7 +105,7 @@ also lists the hash of each frame.)";
 Action add_hash(CLI::App& command) {
   const auto o = std::make_shared<HashOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files (all built-in)");
-  add_text(command, "--backend", "NAME", o->backend, "Backend of `edgewise list` (tiled)");
+  add_text(command, "--backend", "NAME", o->backend, "Backend of `edgewise list --all` (tiled)");
   o->scene.add_to(command);
   o->execution.add_to(command);
   o->motion.add_to(command);

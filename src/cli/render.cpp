@@ -247,7 +247,7 @@ Action add_render(CLI::App& command) {
   add_text(command, "--depth", "FILE", o->depth,
            "Depth file (.pfm, floats), folder, name with {scene}, or -");
   add_format(command, o->format, {Format::png, Format::ppm, Format::pfm});
-  add_text(command, "--backend", "NAME", o->backend, "Backend of `edgewise list` (tiled)");
+  add_text(command, "--backend", "NAME", o->backend, "Backend of `edgewise list --all` (tiled)");
   command.add_flag("--wireframe", o->wireframe, "Draw only the edges of triangles, one pixel wide");
   add_parsed(command, "--payload", "KIND", "Pixel values: colour, id or hits (colour)",
              [o](const std::string& text) { o->pixel_kind = parse_pixel_kind(text); });

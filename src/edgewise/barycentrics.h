@@ -41,10 +41,10 @@ struct BarycentricsView {
 //
 // `ids` is a frame of `drawable` alone, drawn with `options`, where payload is Payload::id. A pixel is
 // background if its depth is contract::kDepthClear; other depths do not count. So if the frame shows several
-// draws, pass a copy of its depths in which the pixels of the others are background. Each thread
-// keeps less than 1 MB until the call ends. A pixel costs three edge functions, nine products and three
-// divisions, in doubles. A visible triangle is also transformed again, once or a few times; with triangles of
-// a few pixels, this costs more.
+// draws, pass a copy of its depths in which the pixels of the others are background. Each thread keeps less
+// than 1 MB until the call ends. A pixel costs three edge functions, nine products and three divisions, in
+// doubles. A visible triangle is also transformed again, once or a few times; with triangles of a few pixels,
+// this costs more.
 //
 // Throws std::invalid_argument
 // - for planes that cannot be read or written, or that overlap in memory, for options of another size than
@@ -86,8 +86,7 @@ namespace contract {
 // In a scene, w_i is rounded. With a relative error of w of at most e, each c_k errs by up to e:
 // - u changes by u (1 - u) 2 e / (1 - e) at most, and the distance by e / (1 - e).
 // - Let D be the vertex's distance from o (rule 10), and Lw the length of w's coefficients: 1 for a Camera
-// and
-//   an unscaled instance.
+//   and an unscaled instance.
 // - In units of 2^-24, the first three terms of w are rounded six times. They are at most Lw times the length
 //   of d, which is at most 2 D. The fourth is rounded twice and is at most Lw D.
 // - The sum is 14 Lw D. So e / (1 - e) < 2^-20 Lw D / w while e < 1/16, and while o is at most 2^24 D away

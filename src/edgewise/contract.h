@@ -76,10 +76,10 @@ static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} <<
 // Rule 6, depth. A vertex has z in [kDepthHead, kDepthHead + kDepthRange]. The front end maps depth 0 and 1
 // to the ends of this range and rounds half to even. A stream states its depths. A scene's depth follows from
 // the float distance w along the view direction:
-//   depth = far (w - near) / ((far - near) w)                   within 1/2 + 2^-19 units (frontend/fixed.h)
+//   depth = far (w - near) / ((far - near) w)
 // With matrices, the factor far / (far - near) is read from the projection. It is 1 for an infinite far
-// plane. If they are no usual perspective (camera.h), depth is z / w. Inside a triangle, depth is
-// the plane through its vertices, in fixed point with wrap-around:
+// plane. If they are no usual perspective (camera.h), depth is z / w. Inside a triangle, depth is the plane
+// through its vertices, in fixed point with wrap-around:
 //   gx, gy   = floor(2^16 dz/dpx), floor(2^16 dz/dpy)           per pixel step, 16 fraction bits, mod 2^64
 //   middle   = floor(plane at the sample (32, 32) of the pixel's 64 x 64 cell + 1/2)        mod 2^32
 //   z(x, y)  = middle + (x mod 64 - 32) zx + (y mod 64 - 32) zy,  zx = floor(gx / 2^16 + 1/2)    mod 2^32

@@ -143,8 +143,8 @@ typedef struct edgewise_stream_triangle {
 edgewise_status edgewise_new_stream(const edgewise_stream_triangle* triangles, size_t count,
                                     edgewise_scene** stream);
 
-/* A renderer keeps its memory between draws: make it once, draw often. `backend`: "tiled", "scanline" or
- * "naive", which draw the same pictures; null: "tiled". */
+/* A renderer keeps its memory between draws: make it once, draw often. `backend`: "tiled", "scanline",
+ * "naive" or a composition of `edgewise list --all`, which draw the same pictures; null: "tiled". */
 typedef struct edgewise_renderer edgewise_renderer;
 edgewise_status edgewise_new_renderer(const char* backend, edgewise_renderer** renderer);
 /* Null is allowed. */

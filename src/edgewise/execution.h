@@ -12,7 +12,7 @@ namespace edgewise {
 // a value that is out of range, and for a SIMD target that this machine cannot run.
 struct Execution {
   int threads = 1;     // at most; 1 … kMaxThreads. oneTBB's limit holds too: by default, as many as cores
-  int tile_size = 64;  // px; 16, 32 or 64; used by the tiled backend only
+  int tile_size = 64;  // px; 16, 32 or 64; used by traversals in tiles only
   SimdTarget target = SimdTarget::best;
 };
 

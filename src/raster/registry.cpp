@@ -20,12 +20,15 @@ using MakeBackend = std::unique_ptr<Backend> (*)();
 template <FrameKernel (*kFill)(SimdTarget)>
 constexpr MakeBackend kBands = [] { return make_bands(kFill); };
 
-template <TileKernel (*kFill)(SimdTarget), bool kHiZ, bool kMasks,
-          FrameKernel (*kLight)(SimdTarget) = nullptr>
+template <TileKernel (*kFill)(SimdTarget), bool kHiZ, bool kMasks>
 constexpr MakeBackend kTiles =
-    [] { return make_tiles(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ}, kLight); };
+    [] { return make_tiles(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ}); };
 
 }  // namespace
+
+std::unique_ptr<Backend> make_tiled(const TileOptions& options) {
+  return make_tiles(tile_edges, options, frame_spans);
+}
 
 #define EDGEWISE_DECLARE(name)                  \
   extern const std::string_view summary_##name; \
@@ -40,7 +43,7 @@ std::span<const BackendInfo> backends() {
        kBands<frame_spans>},
       {"naive", "tests every pixel of the bounding box", kBands<frame_boxes>},
       {"tiled", "SIMD edge functions over tiles, tiles on threads, every pixel independent",
-       kTiles<tile_edges, true, true, frame_spans>},
+       [] { return make_tiled({}); }},
       EDGEWISE_MORE_BACKENDS(EDGEWISE_ENTRY)  //
   });
   return list;

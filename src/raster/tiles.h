@@ -43,4 +43,7 @@ bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execu
 std::unique_ptr<Backend> make_tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options,
                                     FrameKernel (*light)(SimdTarget) = nullptr);
 
+// The backend `tiled`, with other options than its own.
+std::unique_ptr<Backend> make_tiled(const TileOptions& options);
+
 }  // namespace edgewise

@@ -65,8 +65,21 @@ TEST(Program, ListNamesAllRegistries) {
   EXPECT_EQ(json.at("simd_best"), targets.back());
   EXPECT_EQ(names_in(json.at("cull_modes")), (std::vector<std::string>{"none", "back", "front", "both"}));
 
+  const auto all = names_in(nlohmann::json::parse(edgewise_with("list --all --json").out).at("backends"));
+  auto expected = names_of(backends());
+  for (const auto& name : names_of(compositions())) expected.push_back(name);
+  EXPECT_EQ(compositions().size(), 10u);
+  EXPECT_EQ(all, expected);
+
   const std::string text = edgewise_with("list").out;
   for (const auto& name : names_of(builtin_scenes())) EXPECT_NE(text.find(name), std::string::npos) << name;
+}
+
+TEST(Program, RendersWithACompositionByName) {
+  const std::string arguments = "render cubes --size 90x51 -o - --format ppm --backend ";
+  const Outcome tiled = edgewise_with(arguments + "tiled");
+  ASSERT_EQ(tiled.status, 0) << tiled.err;
+  EXPECT_EQ(edgewise_with(arguments + "tiles+spans").out, tiled.out);
 }
 
 TEST(Program, HashesAreThoseOfEveryBackendAndAddUp) {

@@ -26,7 +26,7 @@ def part(plane, rectangle=SCISSOR):
 def test_backends_and_threads_draw_the_same(camera, ids):
     drawn = scene()
     frames = [drawn.draw(CAMERAS[camera], SIZE, ids=ids, backend=backend, threads=threads)
-              for backend in edgewise.BACKENDS for threads in (1, 3)]
+              for backend in (*edgewise.BACKENDS, "tiles+spans") for threads in (1, 3)]
     assert (frames[0].depth < edgewise.DEPTH_CLEAR).any()
     assert all(same(frames[0], frame) for frame in frames)
     assert len({edgewise.pixel_hash(frame) for frame in frames}) == 1

@@ -104,8 +104,8 @@ TEST(CInterface, ProjectsAsCameraHSays) {
 TEST(CInterface, DrawsTheSamePictures) {
   Both both;
   both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
-  const Renderer renderer("scanline");
-  for (int trial = 0; trial < 64; ++trial) {
+  const Renderer renderers[] = {Renderer("scanline"), Renderer("tiles+spans")};
+  for (int trial = 0; trial < 128; ++trial) {
     edgewise_options options = edgewise_default_options();
     options.cull = trial % 4;
     options.ids = trial & 4, options.unlit = trial & 8, options.keep = trial & 16;
@@ -119,7 +119,8 @@ TEST(CInterface, DrawsTheSamePictures) {
     RenderPass pass{options.background, options.keep == 0};
     if ((trial & 32) != 0) pass.scissor = {5, 9, 40, 21};
     Planes actual, expected;
-    EXPECT_EQ(edgewise_draw(renderer.c, both.c, &options, actual.c()), EDGEWISE_OK) << edgewise_error();
+    EXPECT_EQ(edgewise_draw(renderers[trial / 64].c, both.c, &options, actual.c()), EDGEWISE_OK)
+        << edgewise_error();
     Frontend frontend;
     draw(both.scene, frontend, o, *find_backend("naive").make(), expected.view(), pass);
     EXPECT_EQ(actual, expected) << trial;

@@ -215,8 +215,7 @@ class IntervalTest(unittest.TestCase):
 
     def test_each_backend_has_a_mean_and_so_have_all(self):
         rows = {"tiled/a": 1.0, "tiled+frontend/b": 4.0, "bands+edges/a": 0.5, "scanline+frontend/a": 1.25, "naive/a": 0.8}
-        self.assertEqual(means(rows).splitlines(), ["Geometric means of the ratios: bands+edges 0.500, naive 0.800, scanline 1.250,",
-                                                    "tiled 2.000, all 1.149"])
+        self.assertEqual(means(rows), "Geometric means of the ratios: bands+edges 0.500, naive 0.800, scanline 1.250, tiled 2.000, all 1.149")
 
 
 class NoiseCheckTest(FolderTest):

@@ -50,7 +50,7 @@ std::string describe(const TileOptions& options) {
 }
 
 std::unique_ptr<Backend> make(const BackendInfo& info, const TileOptions& options) {
-  return info.name == "tiled" ? make_tiles(tile_edges, options, frame_spans) : info.make();
+  return info.name == "tiled" ? make_tiled(options) : info.make();
 }
 
 void poison(Framebuffer& frame) {

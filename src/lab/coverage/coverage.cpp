@@ -78,13 +78,14 @@ std::span<const CoverageMethod> drawing_methods() {
 #define EDGEWISE_ENTRY(name) methods.push_back(make_coverage_##name());
     EDGEWISE_MORE_COVERAGE_METHODS(EDGEWISE_ENTRY)
     methods.push_back(make_from(wireframe(), false));
+    for (const auto& composition : compositions()) methods.push_back(make_from(composition, true));
     return methods;
   }();
   return list;
 }
 
 std::span<const CoverageMethod> coverage_methods() {
-  return drawing_methods().first(drawing_methods().size() - 1);
+  return drawing_methods().first(drawing_methods().size() - 1 - compositions().size());
 }
 
 bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b) {

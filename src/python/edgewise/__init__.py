@@ -304,7 +304,7 @@ class Scene(_Drawable):
         cull: none, back, front or both; the C++ library's default is back.
         shade: multiplies colours by the light.
         threads: of front end and backend, 1 to 256; a forked child has one.
-        backend: one of BACKENDS, which draw the same picture.
+        backend: one of BACKENDS, or a composition of `edgewise list --all`; all draw the same picture.
         background: the payload of pixels that no triangle covers; by default BACKGROUND_ID or BLACK.
         scissor: x, y, width, height, the only pixels to draw. The others keep what `onto` holds, or are background.
         onto: a frame that is drawn over, as if both draws were one, and returned as a new Frame of the same arrays. Rows must
