@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "raster/llc.h"
 #include "core/random.h"
+#include "raster/llc.h"
 
 namespace edgewise::bench {
 
