@@ -182,6 +182,7 @@ HWY_INLINE void store_words(const Words& words, At&& at) {
 
 #endif
 
+// Triangles, one per lane.
 struct TriangleLanes {
   V x[3], y[3], z[3], payload;
 };

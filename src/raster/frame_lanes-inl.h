@@ -83,7 +83,7 @@ struct FrameBatch {
   }
 
   // Stores a vector of triangles as entries k … Returns the bits of those that are drawn.
-  HWY_INLINE std::uint32_t store_vector(const TriangleLanes& t, const BoxLanes& in_area, const Area& area,
+  HWY_INLINE std::uint32_t store_vector(const TriangleLanes64& t, const BoxLanes& in_area, const Area& area,
                                         const ScreenTriangle* triangles, const std::uint32_t* indices,
                                         int k) {
     const D64 d;
@@ -92,7 +92,7 @@ struct FrameBatch {
     store(in_area.x1, x1 + k), store(in_area.y1, y1 + k);
     hn::StoreU(depth.gx, d, gx + k), hn::StoreU(depth.gy, d, gy + k), hn::StoreU(depth.start, d, origin + k);
     store(depth.x, zx + k), store(depth.y, zy + k);
-    const std::uint32_t drawn = lower_bits(in_area.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
+    const std::uint32_t drawn = may_cover(in_area, area);
     for (std::uint32_t left = drawn & ~mask_bits(depth.exact); left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
       const DepthPlane exact = make_depth(orient(triangles[indices[lane]]));

@@ -145,7 +145,7 @@ struct OtherNumbers : Numbers {
   }
 
   // As in ContractNumbers.
-  static HWY_INLINE std::uint32_t set_up(const TileTask& task, const TriangleLanes& t, const Area& area,
+  static HWY_INLINE std::uint32_t set_up(const TileTask& task, const TriangleLanes64& t, const Area& area,
                                          const BlockBoxLanes& box, EdgeBatch<Value> (&out)[3], int k) {
     const V32 flip = lower(area.flip);
     const V32 x0 = set32(kRebased ? task.x0 * contract::kSub : 0),
@@ -222,14 +222,14 @@ struct OtherNumbers : Numbers {
     const Vec unbiased = hn::Sub(weighted(a, b, finer(in.sample_x), finer(in.sample_y)),
                                  weighted(a, b, finer(in.x), finer(in.y)));
     const Vec first = hn::Sub(unbiased, hn::IfThenZeroElse(is_top_left(a, b), bias_of(unbiased, range)));
-    const Vec largest = hn::Add(first, in_px(weighted(up_x, up_y, last_x, last_y)));
-    const Vec smallest = hn::Add(first, in_px(weighted(down_x, down_y, last_x, last_y)));
+    const Vec largest_in_box = hn::Add(first, in_px(weighted(up_x, up_y, last_x, last_y)));
+    const Vec smallest_in_box = hn::Add(first, in_px(weighted(down_x, down_y, last_x, last_y)));
     const auto keep = [&](Vec v, Value* list) {  // 0 where the edge accepts the box
-      hn::StoreU(hn::IfThenElseZero(hn::Lt(smallest, zero), v), d, list + k);
+      hn::StoreU(hn::IfThenElseZero(hn::Lt(smallest_in_box, zero), v), d, list + k);
     };
     keep(step(a), out.x), keep(step(b), out.y), keep(first, out.first);
     keep(rise, out.rise), keep(range, out.range);
-    return ~mask_bits(d, hn::Lt(largest, zero));
+    return ~mask_bits(d, hn::Lt(largest_in_box, zero));
   }
 };
 

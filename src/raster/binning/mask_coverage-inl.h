@@ -10,7 +10,6 @@
 
 #include "raster/binning/mask_lists.h"
 #include "raster/binning/packet_sorter.h"
-#include "raster/simd/record_lanes-inl.h"
 #include "raster/simd/rule_lanes-inl.h"
 
 // Included once per SIMD target.
@@ -44,12 +43,12 @@ struct Covering {
   alignas(64) std::int32_t area[kCapacity], from_x[kCapacity], from_y[kCapacity], anchor_z[kCapacity];
 };
 
-HWY_INLINE hn::Mask<D> is_small(const RecordLanes& t, const BoxLanes& box) {
+HWY_INLINE hn::Mask<D> is_small(const TriangleLanes& t, const BoxLanes& box) {
   const D d;
   const V side = hn::Set(d, kMaskSide), longest = hn::Set(d, kMaxSmallExtent);
   // Differences of coordinates fit 32 bits (rule 3).
   const auto fits = [&](V begin, V end, const V(&c)[3]) {
-    return hn::AndNot(hn::Gt(hn::Sub(end, begin), side), hn::Lt(hn::Sub(most(c), least(c)), longest));
+    return hn::AndNot(hn::Gt(hn::Sub(end, begin), side), hn::Lt(hn::Sub(max_of(c), min_of(c)), longest));
   };
   return hn::And(box.filled, hn::And(fits(box.x0, box.x1, t.x), fits(box.y0, box.y1, t.y)));
 }
@@ -129,14 +128,15 @@ class Crossings {
 // The sides of small triangles from vertex 0 on, turned so that the area is positive (rule 4).
 struct SmallSides {
   V dx1, dx2, dy1, dy2, area;
-  HWY_INLINE explicit SmallSides(const RecordLanes& t) {
+  HWY_INLINE explicit SmallSides(const TriangleLanes& t) {
     const auto minus = [](V a, V b) { return hn::Sub(a, b); };
     const V x1 = minus(t.x[1], t.x[0]), x2 = minus(t.x[2], t.x[0]);
     const V y1 = minus(t.y[1], t.y[0]), y2 = minus(t.y[2], t.y[0]);
     const V signed_area = minus(hn::Mul(x1, y2), hn::Mul(y1, x2));
     const V flip = hn::BroadcastSignBit(signed_area);
-    const auto flipped = [&](V v) { return hn::Sub(hn::Xor(v, flip), flip); };
-    dx1 = flipped(x1), dx2 = flipped(x2), dy1 = flipped(y1), dy2 = flipped(y2), area = flipped(signed_area);
+    dx1 = flipped(x1, flip), dx2 = flipped(x2, flip);
+    dy1 = flipped(y1, flip), dy2 = flipped(y2, flip);
+    area = flipped(signed_area, flip);
   }
 };
 
@@ -149,12 +149,8 @@ HWY_INLINE V first_rows(V count) {
   return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> half) >> half);
 }
 
-HWY_INLINE V sample(V px) {
-  return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(D{}, kHalf));
-}
-
 // The samples that small triangles cover: the upper and the lower four rows of their boxes.
-HWY_INLINE void find_covered(const RecordLanes& t, const SmallSides& sides, const BoxLanes& box,
+HWY_INLINE void find_covered(const TriangleLanes& t, const SmallSides& sides, const BoxLanes& box,
                              hn::Mask<D> small, V (&covered)[2]) {
   const D d;
   const auto& [dx1, dx2, dy1, dy2, area] = sides;
@@ -182,7 +178,7 @@ HWY_INLINE void find_covered(const RecordLanes& t, const SmallSides& sides, cons
 
 // Appends the triangles of a vector that are small and cover a sample. Bit i of the result is set if triangle
 // i does. `index`: of the first, in the packet.
-HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& box, hn::Mask<D> small,
+HWY_INLINE std::uint32_t append_covering(const TriangleLanes& t, const BoxLanes& box, hn::Mask<D> small,
                                          int index, Covering& out) {
   const V zero = hn::Zero(D{});
   const SmallSides sides(t);

@@ -45,7 +45,6 @@ struct Planes {
 
 inline void find_planes(const ScreenTriangle* triangles, const Covering& from, Planes& out) {
   const D64 d;
-  constexpr int kLanes64 = static_cast<int>(hn::MaxLanes(d));
   for (int k = 0; k < from.count; k += kLanes64) {
     const auto read = [&](const std::int32_t* list) {
       return hn::PromoteTo(D64{}, hn::LoadU(hn::Rebind<std::int32_t, D64>{}, list + k));
@@ -144,10 +143,9 @@ inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const
              {unsigned_bits(read(from.covered[0])), unsigned_bits(read(from.covered[1]))}, rows);
     const V payload = read(from.payload), zx = read(planes.zx), zy = read(planes.zy);
     const auto base_at = [&](int at) {  // start has 24 fraction bits
-      const hn::RebindToUnsigned<Pairs> d64;
-      return hn::BitCast(d, hn::ShiftRight<24>(hn::BitCast(d64, hn::LoadU(Pairs{}, planes.start + at))));
+      return lower(shift_right<24>(hn::LoadU(D64{}, planes.start + at)));
     };
-    const V base = hn::ConcatEven(d, base_at(k + kPairs), base_at(k));
+    const V base = hn::ConcatEven(d, base_at(k + kLanes64), base_at(k));
     V present = hn::Zero(d);
     const auto live = hn::FirstN(d, static_cast<std::size_t>(from.count - k));
     for (int w = 0; w < SortedPacket::kQuadrants; ++w) {

@@ -9,17 +9,18 @@
 //    no branch.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/binning/packet_sorter.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
 #include "raster/binning/mask_coverage-inl.h"
 #include "raster/binning/mask_quadrants-inl.h"
 #include "raster/binning/packet_sorter.h"
-#include "raster/simd/record_lanes-inl.h"
 #include "raster/simd/rule_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,6 +45,8 @@ void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool, bo
 
 #else
 
+constexpr std::size_t kPrefetchBytes = 2560;  // prefetch distance
+
 // Lanes with an empty box store unspecified values.
 HWY_INLINE void store_cell_boxes(const BoxLanes& box, const CellGrid& grid, CellBox* out) {
   const V one = hn::Set(D{}, 1);
@@ -60,7 +63,10 @@ void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool wit
   Covering covering;
   out.boxed = out.masked = 0;
   for (int i = 0; i < kPacket; i += kLanes) {
-    const RecordLanes t(triangles + i, prefetch);
+    const TriangleLanes t = load_triangles([&](int lane) { return triangles + i + lane; });
+    if (prefetch)
+      for (std::size_t byte = 0; byte < kLanes * sizeof(ScreenTriangle); byte += 64)
+        hwy::Prefetch(reinterpret_cast<const char*>(triangles + i) + kPrefetchBytes + byte);
     const BoxLanes box(t.x, t.y, grid.drawn());
     std::uint32_t boxed = mask_bits(box.filled);
     if (with_masks) {

@@ -34,10 +34,9 @@ struct FrameEdges : FrameBatch {
   } edge[3];
 
   HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
-    const TriangleLanes t = load(task.bins.triangles(), indices);
+    const TriangleLanes64 t = load(task.bins.triangles(), indices);
     const BoxLanes in_area(t.x, t.y, task.area);
     const Area area = area_of(t);
-    const auto sample = [](V32 px) { return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(kHalf)); };
     for (int i = 0; i < 3; ++i) {
       const EdgeLanes lanes(t, area, i, sample(in_area.x0), sample(in_area.y0));
       hn::StoreU(lanes.value, D64{}, edge[i].first + k);

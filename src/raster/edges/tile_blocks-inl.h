@@ -53,17 +53,17 @@ inline bool load_hiz(const TileTask& task, Tile& tile) {
   const D d;
   const int columns = (task.width() + kBlockSide - 1) / kBlockSide,
             rows = (task.height() + kBlockSide - 1) / kBlockSide;
-  V least = hn::Set(d, wrap(kDepthClear));
+  V lowest = hn::Set(d, wrap(kDepthClear));
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       const std::int32_t* const block = tile.depth() + (row * kMaxBlocks + column) * kBlockPixels;
-      V most = hn::Load(d, block);
-      for (int p = 1; p < kVectors; ++p) most = hn::Max(most, hn::Load(d, block + p * kLanes));
-      most = hn::MaxOfLanes(d, most);
-      least = hn::Min(least, most);
-      *tile.hiz.at(column, row) = hn::GetLane(most);
+      V zmax = hn::Load(d, block);
+      for (int p = 1; p < kVectors; ++p) zmax = hn::Max(zmax, hn::Load(d, block + p * kLanes));
+      zmax = hn::MaxOfLanes(d, zmax);
+      lowest = hn::Min(lowest, zmax);
+      *tile.hiz.at(column, row) = hn::GetLane(zmax);
     }
-  return hn::GetLane(least) < wrap(kDepthClear);
+  return hn::GetLane(lowest) < wrap(kDepthClear);
 }
 
 HWY_INLINE hn::Mask<D> not_negative(V v) {
@@ -126,14 +126,15 @@ class SmallTriangles {
         numbers.store_values(at, values.at_block + slot + lane);
         return at;
       };
-      const auto largest = [&](int i) {
+      const auto largest_in_block = [&](int i) {
         const auto at = store_values(Numbers{}, edge_in[i].v[p], batch.edge[i].first[k], edge_[i]);
         return Numbers::add(at, Numbers::set(batch.edge[i].rise[k]));
       };
       store_values(Int32Numbers{}, depth_in.v[p], batch.depth.first[k], depth_);
       const V column = hn::Load(d, kLaneX + lane), row = hn::Load(d, kLaneY + lane);
       const auto beside = hn::Or(hn::Gt(column, last_column), hn::Gt(row, last_row));
-      const auto candidate = not_negative(Numbers::any_negative(largest(0), largest(1), largest(2)));
+      const auto candidate =
+          not_negative(Numbers::any_negative(largest_in_block(0), largest_in_block(1), largest_in_block(2)));
       const V block = hn::Add(hn::Mul(row, hn::Set(d, kMaxBlocks)), column);
       const V entry = hn::Add(hn::ShiftLeft<16>(block), counting_from(lane));
       list_.append(hn::Add(entry, hn::Set(d, first_block << 16 | slot)), hn::AndNot(beside, candidate));

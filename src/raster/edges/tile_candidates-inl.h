@@ -60,11 +60,12 @@ struct Candidates {
 template <class Numbers, bool kHiZ, int kWidth>
 void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, Candidates& out) {
   const D d;
-  const auto largest = [&](const auto& edge) {  // in a block
+  const auto largest_in_block = [&](const auto& edge) {
     return Row<Numbers, kWidth>(edge, k,
                                 Numbers::add(Numbers::set(edge.first[k]), Numbers::set(edge.rise[k])));
   };
-  Row<Numbers, kWidth> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
+  Row<Numbers, kWidth> edge[3] = {largest_in_block(batch.edge[0]), largest_in_block(batch.edge[1]),
+                                  largest_in_block(batch.edge[2])};
   Row<Int32Numbers, kWidth> farthest(
       batch.depth, k, hn::Add(hn::Set(d, batch.depth.first[k]), hn::Set(d, batch.depth_rise[k])));
   Row<Int32Numbers, kWidth> nearest(batch.nearest, k, hn::Set(d, batch.nearest.first[k]));
@@ -79,10 +80,11 @@ void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, Candidates&
       const auto in_box = [&](V negative) { return not_negative(hn::Or(negative, before_end)); };
       auto candidate = in_box(Numbers::any_negative(edge[0].v[p], edge[1].v[p], edge[2].v[p]));
       if constexpr (kHiZ) {
-        const auto smallest = [&](int i) {
+        const auto smallest_in_block = [&](int i) {
           return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].range[k]));
         };
-        const auto covered = in_box(Numbers::any_negative(smallest(0), smallest(1), smallest(2)));
+        const auto covered =
+            in_box(Numbers::any_negative(smallest_in_block(0), smallest_in_block(1), smallest_in_block(2)));
         const V old_zmax = hn::LoadU(d, zmax + p * kLanes), own_zmax = farthest.v[p];
         hn::StoreU(hn::IfThenElse(covered, hn::Min(old_zmax, own_zmax), old_zmax), d, zmax + p * kLanes);
         candidate = hn::And(candidate, hn::Lt(nearest.v[p], old_zmax));

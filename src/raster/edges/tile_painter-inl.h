@@ -131,7 +131,7 @@ class TilePainter {
       zmax_is_stale_ = false, has_occluders_ = load_hiz(task_, tile_);
     // Thin triangles fill no block, so they occlude none.
     has_occluders_ = has_occluders_ || (task_.hierarchical_depth && may_fill_blocks(batch_, k));
-    if (has_occluders_ && tile_.hiz.occludes(batch_.least[k])) [[unlikely]]  // in most scenes
+    if (has_occluders_ && tile_.hiz.occludes(batch_.nearest_in_tile[k])) [[unlikely]]  // in most scenes
       return count(Part::hiz);
     count(Part::tile_edges);
     Candidates& next = candidates_[waiting_ == candidates_ ? 1 : 0];

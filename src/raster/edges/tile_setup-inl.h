@@ -82,20 +82,20 @@ struct ContractNumbers : Int32Numbers {
 
   // Sets up the edges of a vector of triangles as entries k … An edge that accepts the box becomes the
   // constant 0. Returns the bits of the triangles whose box no edge rejects.
-  static HWY_INLINE std::uint32_t set_up(const TileTask&, const TriangleLanes& t, const Area& area,
+  static HWY_INLINE std::uint32_t set_up(const TileTask&, const TriangleLanes64& t, const Area& area,
                                          const BlockBoxLanes& box, EdgeBatch<Value> (&out)[3], int k) {
     const V32 zero = hn::Zero(D32{});
     V64 rejected = hn::Zero(D64{});
     for (int i = 0; i < 3; ++i) {
       const EdgeLanes edge(t, area, i, box.sample_x, box.sample_y);
-      // From the first sample, the value grows to `largest` and falls to `smallest` in the box.
+      // From the first sample to others in the box, the value grows by at most `growth`.
       const V64 growth =
           hn::Add(product(hn::Max(edge.a, zero), box.last_x), product(hn::Max(edge.b, zero), box.last_y));
       const V64 across = hn::Add(product(edge.a, box.last_x), product(edge.b, box.last_y));
-      const V64 largest = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(growth));
-      const V64 smallest = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(hn::Sub(across, growth)));
-      rejected = hn::Or(rejected, largest);
-      const auto accepted = hn::Not(hn::Lt(smallest, hn::Zero(D64{})));
+      const V64 largest_in_box = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(growth));
+      const V64 smallest_in_box = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(hn::Sub(across, growth)));
+      rejected = hn::Or(rejected, largest_in_box);
+      const auto accepted = hn::Not(hn::Lt(smallest_in_box, hn::Zero(D64{})));
       const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenZeroElse(accepted, v)); };
       const V32 x = unless_accepted(as64(edge.a)), y = unless_accepted(as64(edge.b));
       store(x, out[i].x + k), store(y, out[i].y + k);
@@ -114,9 +114,9 @@ struct Batch {
   Linear<std::int32_t> depth;       // rule 6, in wrapping int32
   std::int32_t depth_rise[kBatch];  // as in EdgeBatch
   // For HiZ: no pixel that the triangle covers in a block is nearer than this function of the block's first
-  // pixel, and none in the tile is nearer than `least`.
+  // pixel, and none in the tile is nearer than `nearest_in_tile`.
   Linear<std::int32_t> nearest;
-  std::int32_t least[kBatch];
+  std::int32_t nearest_in_tile[kBatch];
   std::int32_t payload[kBatch];
   std::int32_t twice_area_px2[kBatch];
   std::int32_t bx0[kBatch], by0[kBatch], bx1[kBatch], by1[kBatch];  // the box in blocks, inclusive
@@ -125,7 +125,7 @@ struct Batch {
 // Sets up the depths of a vector of triangles as entries k … of the batch. Returns the bits of those whose
 // planes are exact.
 template <class Numbers>
-HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes& t, const Area& area,
+HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes64& t, const Area& area,
                                       V32 left, V32 top, const BlockBoxLanes& box, Batch<Numbers>& out,
                                       int k) {
   const V32 zero = hn::Zero(D32{});
@@ -144,7 +144,7 @@ HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes&
   store(hn::IfThenElseZero(flat, depth.x), out.nearest.x + k);
   store(hn::IfThenElseZero(flat, depth.y), out.nearest.y + k);
   store(hn::IfThenElse(flat, in_block, nearest), out.nearest.first + k);
-  store(hn::IfThenElse(flat, in_box, nearest), out.least + k);
+  store(hn::IfThenElse(flat, in_box, nearest), out.nearest_in_tile + k);
   return mask_bits(depth.exact);
 }
 
@@ -153,22 +153,18 @@ HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes&
 template <class Numbers>
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices,
                                        Batch<Numbers>& out, int k) {
-  const TriangleLanes t = load(task.bins->triangles(), indices);
+  const TriangleLanes64 t = load(task.bins->triangles(), indices);
   const Area area = area_of(t);
   const BoxLanes box(t.x, t.y, task.box());
   const auto block = [](V32 px, int first_px) { return hn::ShiftRight<2>(hn::Sub(px, set32(first_px))); };
   const V32 bx0 = block(box.x0, task.x0), bx1 = block(box.x1, task.x0 + 1);
   const V32 by0 = block(box.y0, task.y0), by1 = block(box.y1, task.y0 + 1);
   const V32 left = hn::ShiftLeft<2>(bx0), top = hn::ShiftLeft<2>(by0);
-  const auto sample = [](V32 px, int first_px) {
-    return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(sample_sub(first_px)));
-  };
   const auto last = [](V32 b0, V32 b1) {
     return hn::Add(hn::ShiftLeft<2>(hn::Sub(b1, b0)), set32(kBlockSide - 1));
   };
   const BlockBoxLanes blocks{sample(left, task.x0), sample(top, task.y0), last(bx0, bx1), last(by0, by1)};
-  const std::uint32_t drawn = lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{}))) &
-                              Numbers::set_up(task, t, area, blocks, out.edge, k);
+  const std::uint32_t drawn = may_cover(box, area) & Numbers::set_up(task, t, area, blocks, out.edge, k);
 
   const std::uint32_t exact = set_up_depth(task, t, area, left, top, blocks, out, k);
   store(t.payload, out.payload + k);
@@ -185,7 +181,7 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
     const auto rise = [](std::uint32_t step) { return wrap(step) > 0 ? (kBlockSide - 1) * step : 0; };
     out.depth_rise[at] = wrap(rise(zx) + rise(zy));
     out.nearest.x[at] = out.nearest.y[at] = 0;
-    out.nearest.first[at] = out.least[at] =
+    out.nearest.first[at] = out.nearest_in_tile[at] =
         wrap(std::min({triangle.z[0], triangle.z[1], triangle.z[2]}) - kDepthError);
   }
   return drawn;

@@ -28,19 +28,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 // counts as near and is conservative. For steeper planes the bound is the nearest vertex.
 constexpr std::int32_t kSteep = 1 << 24;
 
-// g n mod 2^64, for n >= 0.
-HWY_INLINE V64 wrapped_product(V64 g, V64 n) {
-#if HWY_TARGET == HWY_SCALAR
-  return hn::Mul(g, n);
-#else
-  const hn::Repartition<std::uint32_t, D64> u32;
-  const auto gl = hn::BitCast(u32, g), gh = hn::BitCast(u32, upper(g)), nl = hn::BitCast(u32, n),
-             nh = hn::BitCast(u32, upper(n));
-  const auto cross = hn::Add(hn::MulEven(gl, nh), hn::MulEven(gh, nl));
-  return hn::BitCast(D64{}, hn::Add(hn::MulEven(gl, nl), hn::ShiftLeft<32>(cross)));
-#endif
-}
-
 struct Gradient {
   V64 g;                // floor(2^24 n / area)
   hn::Mask<D64> exact;  // where g is exact
@@ -73,7 +60,7 @@ struct DepthLanes {
   }
 };
 // A lower bound of the depth of a triangle's pixels.
-HWY_INLINE V32 nearest_vertex(const TriangleLanes& t) {
+HWY_INLINE V32 nearest_vertex(const TriangleLanes64& t) {
   return hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(contract::kDepthError));
 }
 // The inputs of a depth plane. dx, dy: from vertex 0 to vertices 1 and 2, in sub-units, with the sign that
@@ -105,7 +92,7 @@ HWY_INLINE DepthLanes depth_lanes(const PlaneLanes& p) {
 }
 
 // The planes over the depth cell whose first pixel is (cell_px, cell_py).
-HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int cell_px, int cell_py) {
+HWY_INLINE DepthLanes depth_lanes(const TriangleLanes64& t, const Area& area, int cell_px, int cell_py) {
   const AnchorLanes anchor(t.x, t.y, t.z);
   const V32 flip = lower(area.flip);
   const auto turned = [&](V32 to, V32 from) { return flipped(hn::Sub(to, from), flip); };

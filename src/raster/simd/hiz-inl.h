@@ -56,15 +56,15 @@ class HiZ {
   // Whether the zmax of a block exceeds `nearest`. If so, stores the block with the largest zmax.
   bool any_zmax_behind(std::int32_t nearest) {
     const D d;
-    V largest = hn::Load(d, zmax_), begin = hn::Zero(d);
+    V farthest = hn::Load(d, zmax_), begin = hn::Zero(d);
     for (int i = kLanes; i < kBlocks; i += kLanes) {
       const V here = hn::Load(d, zmax_ + i);
-      begin = hn::IfThenElse(hn::Lt(largest, here), hn::Set(d, i), begin);
-      largest = hn::Max(largest, here);
+      begin = hn::IfThenElse(hn::Lt(farthest, here), hn::Set(d, i), begin);
+      farthest = hn::Max(farthest, here);
     }
-    const V max_zmax = hn::MaxOfLanes(d, largest);
+    const V max_zmax = hn::MaxOfLanes(d, farthest);
     if (nearest >= hn::GetLane(max_zmax)) return false;
-    const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(largest, max_zmax)));
+    const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(farthest, max_zmax)));
     alignas(64) std::int32_t begins[kLanes];
     hn::Store(begin, d, begins);
     farthest_block_ = begins[lane] + static_cast<int>(lane);

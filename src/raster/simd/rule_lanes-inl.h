@@ -20,11 +20,19 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-HWY_INLINE V least(const V (&v)[3]) {
+HWY_INLINE V min_of(const V (&v)[3]) {
   return hn::Min(hn::Min(v[0], v[1]), v[2]);
 }
-HWY_INLINE V most(const V (&v)[3]) {
+HWY_INLINE V max_of(const V (&v)[3]) {
   return hn::Max(hn::Max(v[0], v[1]), v[2]);
+}
+// -v where `flip` is -1, v where it is 0.
+HWY_INLINE V flipped(V v, V flip) {
+  return hn::Sub(hn::Xor(v, flip), flip);
+}
+// The samples of pixels that are counted from pixel `first`, sub-units.
+HWY_INLINE V sample(V px, int first = 0) {
+  return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(D{}, sample_sub(first)));
 }
 
 // The part of pixel_box() that lies in another box.
@@ -37,10 +45,10 @@ struct BoxLanes {
     const auto first_sample = [&](V c) {
       return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(d, kHalf - 1)));
     };
-    x0 = hn::Max(first_sample(least(x)), hn::Set(d, in.x0));
-    x1 = hn::Min(first_sample(most(x)), hn::Set(d, in.x1));
-    y0 = hn::Max(first_sample(least(y)), hn::Set(d, in.y0));
-    y1 = hn::Min(first_sample(most(y)), hn::Set(d, in.y1));
+    x0 = hn::Max(first_sample(min_of(x)), hn::Set(d, in.x0));
+    x1 = hn::Min(first_sample(max_of(x)), hn::Set(d, in.x1));
+    y0 = hn::Max(first_sample(min_of(y)), hn::Set(d, in.y0));
+    y1 = hn::Min(first_sample(max_of(y)), hn::Set(d, in.y1));
     filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   }
 };

@@ -31,6 +31,7 @@ using D32 = D;  // two lanes per triangle, of which only the lower one is used; 
 using V64 = hn::Vec<D64>;
 using V32 = hn::Vec<D32>;
 using Packed = hn::Rebind<std::int32_t, D64>;  // one 32-bit lane per triangle
+constexpr int kLanes64 = static_cast<int>(hn::MaxLanes(D64{}));
 
 template <int kBits>
 HWY_INLINE V64 shift_right(V64 v) {
@@ -68,14 +69,23 @@ HWY_INLINE V32 set32(std::int32_t v) {
 HWY_INLINE V64 product(V32 a, V32 b) {
   return hn::MulEven(a, b);
 }
-// g d mod 2^64. With g = low + 2^32 high, low signed: high is g's upper half, rounded.
-HWY_INLINE V64 wrapped_product(V64 g, V32 d) {
-  const V32 high = upper(hn::Add(g, hn::Set(D64{}, std::int64_t{1} << 31)));
-  return hn::Add(product(lower(g), d), hn::ShiftLeft<32>(product(high, d)));
+// The product mod 2^64, of any numbers.
+HWY_INLINE V64 wrapped_product(V64 a, V64 b) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Mul(a, b);
+#else
+  const hn::Repartition<std::uint32_t, D64> u32;
+  const auto al = hn::BitCast(u32, a), ah = hn::BitCast(u32, upper(a)), bl = hn::BitCast(u32, b),
+             bh = hn::BitCast(u32, upper(b));
+  const auto cross = hn::Add(hn::MulEven(al, bh), hn::MulEven(ah, bl));
+  return hn::BitCast(D64{}, hn::Add(hn::MulEven(al, bl), hn::ShiftLeft<32>(cross)));
+#endif
 }
-// -v where `flip` is -1, v where it is 0.
-HWY_INLINE V32 flipped(V32 v, V32 flip) {
-  return hn::Sub(hn::Xor(v, flip), flip);
+// The same with one multiplication less. With a = low + 2^32 high, low signed: high is a's upper half,
+// rounded.
+HWY_INLINE V64 wrapped_product(V64 a, V32 b) {
+  const V32 high = upper(hn::Add(a, hn::Set(D64{}, std::int64_t{1} << 31)));
+  return hn::Add(product(lower(a), b), hn::ShiftLeft<32>(product(high, b)));
 }
 HWY_INLINE V64 flipped(V64 v, V64 flip) {
   return hn::Sub(hn::Xor(v, flip), flip);
@@ -99,10 +109,11 @@ HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
   return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(D64{})));
 }
 
-// Loads the triangles with these indices, one per lane of V64: each fills both halves of its lane.
-HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32_t* index) {
-  constexpr int kTriangles = static_cast<int>(hn::MaxLanes(D64{}));
-  return load_triangles([&](int lane) { return triangles + index[lane * kTriangles / kLanes]; });
+// kLanes64 triangles. Each fills both halves of its lane.
+struct TriangleLanes64 : TriangleLanes {};
+// Loads the triangles with these indices.
+HWY_INLINE TriangleLanes64 load(const ScreenTriangle* triangles, const std::uint32_t* index) {
+  return {load_triangles([&](int lane) { return triangles + index[lane * kLanes64 / kLanes]; })};
 }
 
 // Twice the signed area, made positive.
@@ -110,18 +121,23 @@ struct Area {
   V64 value;
   V64 flip;  // -1 where the sign was changed, that is, for the other winding
 };
-HWY_INLINE Area area_of(const TriangleLanes& t) {
+HWY_INLINE Area area_of(const TriangleLanes64& t) {
   const V64 area = hn::Sub(product(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[2], t.y[0])),
                            product(hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0])));
   const V64 flip = hn::VecFromMask(D64{}, hn::Lt(area, hn::Zero(D64{})));
   return {flipped(area, flip), flip};
 }
 
+// Bits of the triangles that have an area, and a box that is not empty.
+HWY_INLINE std::uint32_t may_cover(const BoxLanes& box, const Area& area) {
+  return lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
+}
+
 // Edge i of triangles (rule 4), with its biased value at a sample of each.
 struct EdgeLanes {
   V32 a, b;
   V64 value;
-  HWY_INLINE EdgeLanes(const TriangleLanes& t, const Area& area, int i, V32 sample_x, V32 sample_y) {
+  HWY_INLINE EdgeLanes(const TriangleLanes64& t, const Area& area, int i, V32 sample_x, V32 sample_y) {
     const int j = i == 2 ? 0 : i + 1;
     const V32 flip = lower(area.flip);
     a = flipped(hn::Sub(t.y[i], t.y[j]), flip), b = flipped(hn::Sub(t.x[j], t.x[i]), flip);
@@ -139,7 +155,7 @@ HWY_INLINE std::uint32_t set_up_batch(std::span<const std::uint32_t> indices, Se
   std::uint32_t padded[kBatch];
   for (int k = 0; k < kBatch; ++k) padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
   std::uint32_t drawn = 0;
-  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(D64{}))) drawn |= set_up(padded, k) << k;
+  for (int k = 0; k < count; k += kLanes64) drawn |= set_up(padded, k) << k;
   return drawn & static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
 }
 

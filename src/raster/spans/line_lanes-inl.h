@@ -97,7 +97,7 @@ struct BatchLine {
 };
 // Stores the lines of a vector of triangles as entries k … of `out`, relative to pixel column `left`. Returns
 // where one is too flat.
-HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes& t, const Area& area, int left, V32 first_sample,
+HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes64& t, const Area& area, int left, V32 first_sample,
                                      BatchLine (&out)[3], int k) {
   const D64 d;
   auto flat = hn::FirstN(d, 0);

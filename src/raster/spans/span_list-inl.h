@@ -54,10 +54,6 @@ struct SpanList {
 
 #else
 
-constexpr std::int32_t wrapped_product(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
-}
-
 class SpanList {
  public:
   SpanList(SpanTile& tile, bool hierarchical_depth) : tile_(tile), uses_hiz_(hierarchical_depth) {}
@@ -131,10 +127,9 @@ class SpanList {
       if (begin < end) {
         if (last_begin > 0) append(batch, k, rows, rows.begin, set32(begin));
         if (first_end < kMaxTile) append(batch, k, rows, set32(end), rows.end);
-        for (int x = begin; x < end; x += kSpanBlockWidth) {
-          const V32 z = hn::Add(rows.z, set32(wrapped_product(x, batch.depth.x[k])));
-          draw_block(batch, k, x, y, hn::GetLane(upper(as64(z))));
-        }
+        const V32 zx = set32(batch.depth.x[k]);
+        for (int x = begin; x < end; x += kSpanBlockWidth)
+          draw_block(batch, k, x, y, hn::GetLane(upper(as64(hn::Add(rows.z, hn::Mul(set32(x), zx))))));
       } else {
         append(batch, k, rows, rows.begin, rows.end);
       }

@@ -41,15 +41,12 @@ struct SpanBatch {
 // Sets up a vector of triangles as entries k … of the batch. Returns the bits of those that are drawn.
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
                                        int k) {
-  const TriangleLanes t = load(task.bins->triangles(), indices);
+  const TriangleLanes64 t = load(task.bins->triangles(), indices);
   const BoxLanes box(t.x, t.y, task.box());
   const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
   const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));
   const Area area = area_of(t);
-  const std::uint32_t drawn = lower_bits(box.filled) & mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
-
-  const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(task.y0)));
-  const auto flat = store_lines(t, area, task.x0, first_sample, out.line, k);
+  const auto flat = store_lines(t, area, task.x0, sample(y0, task.y0), out.line, k);
   const DepthLanes depth = depth_lanes(t, area, task.x0 & -kDepthCell, task.y0 & -kDepthCell);
   out.by_integers |= mask_bits(hn::Or(flat, hn::Not(depth.exact))) << k;
   const V32 first = depth.at(set32(task.x0 % kDepthCell), hn::Add(y0, set32(task.y0 % kDepthCell)));
@@ -59,15 +56,15 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   const auto fall = [](V32 step, V32 begin, V32 end) {
     return hn::Mul(hn::Min(step, hn::Zero(D32{})), hn::Sub(hn::Sub(end, begin), set32(1)));
   };
-  const V32 least = hn::Add(at_box, hn::Add(fall(depth.x, x0, x1), fall(depth.y, y0, y1)));
-  store(hn::IfThenElse(depth.is_flat(), least, nearest_vertex(t)), out.nearest + k);
+  const V32 in_box = hn::Add(at_box, hn::Add(fall(depth.x, x0, x1), fall(depth.y, y0, y1)));
+  store(hn::IfThenElse(depth.is_flat(), in_box, nearest_vertex(t)), out.nearest + k);
   store(t.payload, out.payload + k);
   store(x0, out.x0 + k), store(x1, out.x1 + k);
   store(y0, out.y0 + k), store(y1, out.y1 + k);
-  return drawn;
+  return may_cover(box, area);
 }
 
-constexpr int kRows = static_cast<int>(hn::MaxLanes(D64{}));
+constexpr int kRows = kLanes64;
 constexpr int kRowsLog2 = std::countr_zero(static_cast<unsigned>(kRows));
 
 #if HWY_TARGET != HWY_SCALAR
