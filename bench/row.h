@@ -12,7 +12,7 @@
 #include "bench/workloads/pipelines.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
-#include "raster/tile_options.h"
+#include "raster/traversals.h"
 
 namespace edgewise::bench {
 

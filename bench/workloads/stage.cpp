@@ -24,7 +24,7 @@ std::uint64_t pixels_of_another_colour(const Framebuffer& a, const Framebuffer& 
 
 bool Stage::renew_memory(const Row& row) {
   if (!row.arithmetic) return false;
-  scratch_ = TileScratch();
+  engines_.clear();
   return true;
 }
 
@@ -33,18 +33,23 @@ Framebuffer& Stage::frame(const Row& row) {
   return frames_.try_emplace({width, height}, width, height).first->second;
 }
 
+Backend& Stage::backend(const Row& row) {
+  if (!row.arithmetic) return backends_.get(*row.backend, row.tiles);
+  auto& engine = engines_[*row.arithmetic];
+  if (!engine) engine = lab::make_engine(*row.arithmetic);
+  return *engine;
+}
+
 void Stage::work(const Row& row) {
   if (!row.workload) return draws_.at(row.name)();
   if (row.peer != nullptr) return peers_.work(row);
   Workload& workload = *row.workload;
   if (row.timed == Timed::frame && !row.arithmetic)
-    return workload.draw(frontend_, backends_.get(*row.backend, row.tiles), frame(row).view(), row.execution);
+    return workload.draw(frontend_, backend(row), frame(row).view(), row.execution);
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution);
-  if (row.arithmetic)
-    lab::draw_engine(*row.arithmetic, triangles, frame(row).view(), kBackground, row.execution, scratch_);
-  else if (row.timed != Timed::frontend)
-    backends_.get(*row.backend, row.tiles).draw(triangles, frame(row).view(), {kBackground}, row.execution);
+  if (row.timed != Timed::frontend)
+    backend(row).draw(triangles, frame(row).view(), {kBackground}, row.execution);
 }
 
 double Stage::timed_work_s(const Row& row) {

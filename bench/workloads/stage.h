@@ -3,13 +3,13 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "bench/row.h"
 #include "bench/workloads/peers.h"
 #include "lab/cases/frame_comparison.h"
-#include "raster/tiles.h"
 
 namespace edgewise::bench {
 
@@ -35,13 +35,14 @@ class Stage {
  private:
   void compare_ours(Row& row);
   Framebuffer& frame(const Row& row);
+  Backend& backend(const Row& row);
 
   lab::BackendCache backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
-  TileScratch scratch_;  // of the engine
+  std::map<lab::EngineArithmetic, std::unique_ptr<Backend>> engines_;
   PeerStage peers_;
   std::map<std::string, std::function<void()>> draws_;  // of methods and pipelines, by row name
   CostModel cost_model_;

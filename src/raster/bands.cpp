@@ -1,11 +1,10 @@
-#include "raster/bands.h"
-
 #include <algorithm>
 
 #include "core/parallel.h"
 #include "core/triangle_source.h"
 #include "edgewise/contract.h"
 #include "raster/clear.h"
+#include "raster/traversals.h"
 
 namespace edgewise {
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
-#include "raster/fill_counts.h"
 #include "raster/kernels.h"
 
 namespace edgewise {

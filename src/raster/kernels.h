@@ -1,7 +1,11 @@
-// The tasks of the kernels that draw the triangles of a cell: in the frame itself, or in a tile's buffer.
+// What the fills share: the tasks of the kernels that draw the triangles of a cell, in the frame itself or in
+// a tile's buffer; and the counts of what they drew.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 #include "edgewise/backend.h"
@@ -54,5 +58,16 @@ FrameKernel frame_spans(SimdTarget target);
 FrameKernel frame_edges(SimdTarget target);
 TileKernel tile_spans(SimdTarget target);
 TileKernel tile_edges(SimdTarget target);
+
+// How many triangles each part has drawn, for tests. Only builds with EDGEWISE_COUNT_FILLS count.
+enum class Part { frame_boxes, frame_spans, frame_edges, tile_spans, tile_edges, masks, hiz };
+#ifdef EDGEWISE_COUNT_FILLS
+inline std::array<std::atomic<std::uint64_t>, 7> fill_counts;
+inline void count(Part part, std::uint64_t triangles = 1) {
+  fill_counts[static_cast<std::size_t>(part)] += triangles;
+}
+#else
+inline void count(Part, std::uint64_t = 1) {}
+#endif
 
 }  // namespace edgewise

@@ -4,8 +4,7 @@
 
 #include "core/nearest_name.h"
 #include "edgewise/backend.h"
-#include "raster/bands.h"
-#include "raster/tiles.h"
+#include "raster/traversals.h"
 
 #ifndef EDGEWISE_MORE_BACKENDS
 #define EDGEWISE_MORE_BACKENDS(X)

@@ -1,4 +1,4 @@
-// Copies a finished tile to the frame by cached or streaming stores (raster/tile_options.h), and before that
+// Copies a finished tile to the frame by cached or streaming stores (raster/traversals.h), and before that
 // the frame to a tile that is drawn over it.
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>

@@ -1,14 +1,15 @@
-#include "raster/tiles.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "core/parallel.h"
+#include "core/triangle_source.h"
 #include "raster/clear.h"
 #include "raster/llc.h"
 #include "raster/policy.h"
+#include "raster/traversals.h"
 
 namespace edgewise {
 
@@ -79,68 +80,64 @@ void list_jobs(const Bins& bins, const CellGrid& grid, const FramePart& part, in
   }
 }
 
-bool draw_in_tiles(TriangleSource& triangles, const FramePart& part, const Execution& execution,
-                   const TileOptions& options, TileScratch& scratch, TileKernel fill,
-                   FrameKernel draw_light) {
-  const auto& [threads, size, target] = execution;
-  const FrameView& frame = part.frame;
-  const int size_log2 = std::countr_zero(static_cast<unsigned>(size));
-  const CellGrid grid{frame.width, frame.height, size_log2, size_log2, part.x0, part.y0};
-  Bins& bins = scratch.bins;
-  if (!bins.build(triangles, grid, threads, target, options.coverage_masks)) return false;
-  const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
-  const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
-  const bool large = part.clear && is_large(frame_bytes, llc_bytes());
-  const auto is_streamed = [&](bool if_automatic) {
-    return options.tile_store == TileStore::automatic ? if_automatic
-                                                      : options.tile_store == TileStore::streaming;
-  };
-  const bool stream_tiles = is_streamed(part.clear && tiles_are_streamed(large, threads)),
-             stream_clears = is_streamed(large);
-  if (stream_clears || frame.payload == nullptr) draw_light = nullptr;
-  list_jobs(bins, grid, part, threads, draw_light != nullptr, scratch.jobs);
-  const InFrame draw_in_frame{bins, grid, part, stream_clears, clear_kernel(target), draw_light};
-  parallel_for(threads, static_cast<int>(scratch.jobs.size()), [&](int i) {
-    const TileJob& job = scratch.jobs[static_cast<std::size_t>(i)];
-    if (job.cell == TileJob::kInFrame)
-      draw_in_frame(job);
-    else
-      fill({&bins, job.cell, job.cell % grid.columns() << size_log2, job.row << size_log2, size_log2, part,
-            options.hierarchical_depth, stream_tiles});
-  });
-  return true;
-}
-
 namespace {
 
 class Tiles final : public Backend {
  public:
-  Tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options, FrameKernel (*light)(SimdTarget))
-      : fill_(fill), light_(light), options_(options) {}
+  Tiles(std::function<TileKernel(SimdTarget)> fill, const TileOptions& options,
+        FrameKernel (*light)(SimdTarget))
+      : fill_(std::move(fill)), light_(light), options_(options) {}
 
  private:
   bool draws_depth_only() const override { return true; }
   bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
-    return draw_in_tiles(triangles, part, execution, options_, scratch_, fill_(execution.target),
-                         light_ != nullptr ? light_(execution.target) : nullptr);
+    const auto& [threads, size, target] = execution;
+    const FrameView& frame = part.frame;
+    const int size_log2 = std::countr_zero(static_cast<unsigned>(size));
+    const CellGrid grid{frame.width, frame.height, size_log2, size_log2, part.x0, part.y0};
+    if (!bins_.build(triangles, grid, threads, target, options_.coverage_masks)) return false;
+    const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
+    const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
+    const bool large = part.clear && is_large(frame_bytes, llc_bytes());
+    const bool stream_tiles = is_streamed(part.clear && tiles_are_streamed(large, threads)),
+               stream_clears = is_streamed(large);
+    const bool with_light = light_ != nullptr && !stream_clears && frame.payload != nullptr;
+    list_jobs(bins_, grid, part, threads, with_light, jobs_);
+    const InFrame draw_in_frame{
+        bins_, grid, part, stream_clears, clear_kernel(target), with_light ? light_(target) : nullptr};
+    const TileKernel fill = fill_(target);
+    parallel_for(threads, static_cast<int>(jobs_.size()), [&](int i) {
+      const TileJob& job = jobs_[static_cast<std::size_t>(i)];
+      if (job.cell == TileJob::kInFrame)
+        draw_in_frame(job);
+      else
+        fill({&bins_, job.cell, job.cell % grid.columns() << size_log2, job.row << size_log2, size_log2, part,
+              options_.hierarchical_depth, stream_tiles});
+    });
+    return true;
   }
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
     StoredTriangles stored(triangles);
     draw_source(stored, part, execution);  // always true: stored triangles are not copied
   }
+  bool is_streamed(bool if_automatic) const {
+    return options_.tile_store == TileStore::automatic ? if_automatic
+                                                       : options_.tile_store == TileStore::streaming;
+  }
 
-  TileKernel (*const fill_)(SimdTarget);
+  const std::function<TileKernel(SimdTarget)> fill_;
   FrameKernel (*const light_)(SimdTarget);
   const TileOptions options_;
-  TileScratch scratch_;
+  Bins bins_;
+  std::vector<TileJob> jobs_;
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> make_tiles(TileKernel (*fill)(SimdTarget), const TileOptions& options,
+std::unique_ptr<Backend> make_tiles(std::function<TileKernel(SimdTarget)> fill, const TileOptions& options,
                                     FrameKernel (*light)(SimdTarget)) {
-  return std::make_unique<Tiles>(fill, options, light);
+  return std::make_unique<Tiles>(std::move(fill), options, light);
 }
 
 }  // namespace edgewise

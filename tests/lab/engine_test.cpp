@@ -22,8 +22,7 @@ constexpr EngineArithmetic kArithmetics[] = {EngineArithmetic::exact,   EngineAr
 Framebuffer engine_picture(EngineArithmetic numbers, std::span<const ScreenTriangle> triangles,
                            const Execution& execution) {
   Framebuffer frame(kWindow.width, kWindow.height);
-  TileScratch scratch;
-  draw_engine(numbers, triangles, frame.view(), kBackground, execution, scratch);
+  make_engine(numbers)->draw(triangles, frame.view(), {kBackground}, execution);
   return frame;
 }
 

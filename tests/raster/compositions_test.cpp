@@ -10,7 +10,7 @@
 #include "lab/cases/frame_comparison.h"
 #include "lab/cases/hard_triangles.h"
 #include "message_of.h"
-#include "raster/fill_counts.h"
+#include "raster/kernels.h"
 #include "support.h"
 
 namespace edgewise {

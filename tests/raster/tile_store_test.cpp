@@ -11,7 +11,7 @@
 
 #include "raster/kernels.h"
 #include "raster/policy.h"
-#include "raster/tiles.h"
+#include "raster/traversals.h"
 #include "support.h"
 
 namespace edgewise {
@@ -24,10 +24,11 @@ TEST(TileStore, IsTheCallersChoiceOrStreamingIfTheFrameIsClearedOnOneThread) {
   static std::atomic<int> streamed;
   const auto tiles_streamed = [&](TileStore store, bool clear, int threads) {
     streamed = 0;
-    TileScratch scratch;
-    StoredTriangles stored({&all_over, 1});
-    draw_in_tiles(stored, {.frame = frame.view(), .clear = clear}, {threads, 64, resolve(SimdTarget::best)},
-                  {.tile_store = store}, scratch, [](const TileTask& task) { streamed += task.streaming; });
+    const auto count_streamed = [](SimdTarget) -> TileKernel {
+      return [](const TileTask& task) { streamed += task.streaming; };
+    };
+    make_tiles(count_streamed, {.tile_store = store})
+        ->draw({&all_over, 1}, frame.view(), {.clear = clear}, {threads, 64});
     return streamed.load();
   };
   for (const bool clear : {true, false})
@@ -54,11 +55,14 @@ TEST(TileTasks, AreThoseOfThePart) {
                          bool clear) {
     FramePart part{.frame = frame.view(), .x0 = x0, .y0 = y0, .clear = clear};
     part.frame.width = x1, part.frame.height = y1;
-    TileScratch scratch;
+    const CellGrid grid{x1, y1, 6, 6, x0, y0};
+    Bins bins;
     StoredTriangles stored(triangles);
-    draw_in_tiles(stored, part, {1, kSide, resolve(SimdTarget::best)}, {}, scratch, [](const TileTask&) {});
+    EXPECT_TRUE(bins.build(stored, grid, 1, resolve(SimdTarget::best), true));
+    std::vector<TileJob> tasks;
+    list_jobs(bins, grid, part, 1, false, tasks);
     std::vector<int> list;
-    for (const TileJob& task : scratch.jobs) list.push_back(task.cell);
+    for (const TileJob& task : tasks) list.push_back(task.cell);
     return list;
   };
   constexpr int kClear = TileJob::kInFrame;

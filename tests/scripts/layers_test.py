@@ -35,7 +35,7 @@ PUBLIC_BELOW = {  # what the public headers of a room include
     "queries": ["edgewise/scene.h", "edgewise/frontend.h", "edgewise/framebuffer.h"],
     "draw.cpp": ["edgewise/backend.h", "edgewise/frontend.h", "edgewise/scene.h"],
 }
-FILLS = ["fill_counts.h", "kernels.h", "frame_lanes-inl.h", "tile_store-inl.h"]  # shared by the rooms of fills
+FILLS = ["kernels.h", "frame_lanes-inl.h", "tile_store-inl.h"]  # shared by the rooms of fills
 ROOMS_BELOW = {  # inside src/raster: rooms and headers
     "simd": [],
     "binning": ["simd"],

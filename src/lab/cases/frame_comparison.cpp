@@ -9,7 +9,6 @@
 
 #include "edgewise/contract.h"
 #include "lab/cases/exact_spans.h"
-#include "raster/tiles.h"
 
 namespace edgewise::lab {
 

@@ -15,7 +15,7 @@
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "lab/cases/guarded_frame.h"
-#include "raster/tile_options.h"
+#include "raster/traversals.h"
 
 namespace edgewise::lab {
 

@@ -42,20 +42,21 @@ std::int32_t to_sub(float px) {
 CoverageMethod make_from(const BackendInfo& backend, bool fills) {
   const bool scalar_only = backend.name == "naive";  // ignores Execution::target
   constexpr double kSnap = 0.00277;                  // half a sub-unit on both axes: sqrt(2) / 512
-  return {{backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
-           true},
-          {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true, .snap_bits = contract::kSubBits},
-          [&backend](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
-            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), {0}, execution);
-          },
-          [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
-            backend_runs(*backend.make(), input.snapped, window, runs);
-          },
-          true,
-          true,
-          fills,
-          !scalar_only,
-          scalar_only ? "scalar on purpose: the plainest implementation of the contract" : ""};
+  return {
+      {backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
+       true},
+      {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true, .snap_bits = contract::kSubBits},
+      [&backend](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
+        canvas.backend(backend.name, backend.make).draw(input.snapped, canvas.frame.view(), {0}, execution);
+      },
+      [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
+        backend_runs(*backend.make(), input.snapped, window, runs);
+      },
+      true,
+      true,
+      fills,
+      !scalar_only,
+      scalar_only ? "scalar on purpose: the plainest implementation of the contract" : ""};
 }
 
 }  // namespace
@@ -64,9 +65,9 @@ Canvas::Canvas(int width, int height)
     : frame(width, height),
       depth(static_cast<std::size_t>(frame.stride()) * static_cast<std::size_t>(height)) {}
 
-Backend& Canvas::backend(const BackendInfo& info) {
-  auto& slot = backends_[info.name];
-  if (!slot) slot = info.make();
+Backend& Canvas::backend(std::string_view name, const std::function<std::unique_ptr<Backend>()>& make) {
+  auto& slot = backends_[name];
+  if (!slot) slot = make();
   return *slot;
 }
 

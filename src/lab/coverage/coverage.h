@@ -16,7 +16,6 @@
 #include "edgewise/framebuffer.h"
 #include "lab/method.h"
 #include "lab/truth/truth.h"
-#include "raster/tiles.h"
 
 namespace edgewise::lab {
 
@@ -43,11 +42,11 @@ class Canvas {
  public:
   Canvas(int width, int height);
   Window window() const { return {frame.width(), frame.height()}; }
-  Backend& backend(const BackendInfo& info);
+  // Made when it is first used.
+  Backend& backend(std::string_view name, const std::function<std::unique_ptr<Backend>()>& make);
 
   Framebuffer frame;  // all methods write payloads; backends and the engine also write depths
   std::vector<float, LineAllocator<float>> depth;  // of all other methods; rows are frame.stride() apart
-  TileScratch scratch;                             // of the engine (lab/engine)
 
  private:
   std::map<std::string_view, std::unique_ptr<Backend>> backends_;

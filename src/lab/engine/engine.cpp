@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/execution.h"
 #include "edgewise/contract.h"
 #include "lab/coverage/draw_in_sets.h"
-#include "raster/tiles.h"
+#include "raster/traversals.h"
 
 namespace edgewise::lab {
 
-void draw_engine(EngineArithmetic arithmetic, std::span<const ScreenTriangle> triangles, FrameView frame,
-                 std::uint32_t background, const Execution& execution, TileScratch& scratch) {
-  const Execution resolved = checked(execution);
-  StoredTriangles stored(triangles);
-  draw_in_tiles(stored, {.frame = frame, .background = background}, resolved, {.coverage_masks = false},
-                scratch, engine_kernel(arithmetic, resolved.target));
+std::unique_ptr<Backend> make_engine(EngineArithmetic arithmetic) {
+  return make_tiles([arithmetic](SimdTarget target) { return engine_kernel(arithmetic, target); },
+                    {.coverage_masks = false});
 }
 
 namespace {
@@ -36,12 +32,12 @@ void engine_runs(EngineArithmetic arithmetic, const CoverageInput& input, Window
   // At one depth no plane is steep: wrong pixels beside the triangle then keep its depth.
   for (ScreenTriangle& t : triangles) t.z[0] = t.z[1] = t.z[2] = contract::kDepthHead;
   for (const ScreenTriangle& t : triangles) boxes.push_back(with_wider_box(t));
-  TileScratch scratch;
+  const auto engine = make_engine(arithmetic);
   std::vector<ScreenTriangle> drawn;
   draw_in_sets(boxes, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
     drawn.clear();
     for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
-    draw_engine(arithmetic, drawn, frame.view(), kNoTriangle, {}, scratch);
+    engine->draw(drawn, frame.view(), {kNoTriangle});
   });
 }
 
@@ -49,8 +45,10 @@ CoverageMethod make(EngineArithmetic arithmetic, const MethodInfo& info, const C
   return {.info = info,
           .promise = promise,
           .draw =
-              [arithmetic](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
-                draw_engine(arithmetic, input.snapped, canvas.frame.view(), 0, execution, canvas.scratch);
+              [arithmetic, name = info.name](const CoverageInput& input, Canvas& canvas,
+                                             const Execution& execution) {
+                canvas.backend(name, [&] { return make_engine(arithmetic); })
+                    .draw(input.snapped, canvas.frame.view(), {0}, execution);
               },
           .runs = [arithmetic](const CoverageInput& input, Window window,
                                std::vector<Run>& runs) { engine_runs(arithmetic, input, window, runs); },

@@ -3,13 +3,12 @@
 // inexact coverage gets wrong, with all else equal.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <span>
 
 #include "edgewise/backend.h"
 #include "lab/coverage/coverage.h"
 #include "raster/kernels.h"
-#include "raster/tiles.h"
 
 namespace edgewise::lab {
 
@@ -25,10 +24,8 @@ enum class EngineArithmetic {
 // The tile kernel in this arithmetic. `target` must be resolved.
 TileKernel engine_kernel(EngineArithmetic arithmetic, SimdTarget target);
 
-// Draws a frame. `scratch` is kept between frames. In exact arithmetic this is the backend `tiled` without
-// coverage masks.
-void draw_engine(EngineArithmetic arithmetic, std::span<const ScreenTriangle> triangles, FrameView frame,
-                 std::uint32_t background, const Execution& execution, TileScratch& scratch);
+// In exact arithmetic this is the composition `tiles+edges+hiz`.
+std::unique_ptr<Backend> make_engine(EngineArithmetic arithmetic);
 
 // The engine with each kind of arithmetic, the contract's first. Apart from coverage_methods(), because
 // sweeps and the viewer leave them out.

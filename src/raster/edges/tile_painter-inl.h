@@ -14,7 +14,6 @@
 #include "raster/edges/tile_blocks-inl.h"
 #include "raster/edges/tile_candidates-inl.h"
 #include "raster/edges/tile_setup-inl.h"
-#include "raster/fill_counts.h"
 #include "raster/kernels.h"
 #include "raster/tile_store-inl.h"
 

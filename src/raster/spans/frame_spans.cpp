@@ -10,7 +10,6 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
-#include "raster/fill_counts.h"
 #include "raster/frame_lanes-inl.h"
 #include "raster/kernels.h"
 #include "raster/spans/integer_spans.h"

@@ -15,7 +15,7 @@
 
 #include "edgewise/contract.h"
 #include "raster/binning/mask_lists.h"
-#include "raster/fill_counts.h"
+#include "raster/kernels.h"
 #include "raster/simd/hiz-inl.h"
 #include "raster/spans/span_rows-inl.h"
 #include "raster/tile_store-inl.h"

@@ -17,7 +17,6 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
-#include "raster/fill_counts.h"
 #include "raster/kernels.h"
 #include "raster/spans/integer_spans.h"
 #include "raster/spans/span_list-inl.h"
