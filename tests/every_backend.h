@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/truth/oracle.h"
 #include "support.h"
 

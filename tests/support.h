@@ -15,7 +15,7 @@
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/cases/hard_triangles.h"
 
 namespace edgewise::testing {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::bench {
 

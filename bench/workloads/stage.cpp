@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/engine/engine.h"
 
 namespace edgewise::bench {

@@ -9,7 +9,7 @@
 
 #include "bench/row.h"
 #include "bench/workloads/peers.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::bench {
 

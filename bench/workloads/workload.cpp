@@ -1,7 +1,7 @@
 #include "bench/workloads/workload.h"
 
 #include "edgewise/draw.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::bench {
 

@@ -16,7 +16,7 @@
 #include "core/nearest_name.h"
 #include "edgewise/contract.h"
 #include "files/pictures.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "support/console.h"
 #include "support/json.h"
 #include "support/milliseconds.h"

@@ -8,7 +8,7 @@
 #include "edgewise/contract.h"
 #include "files/pictures.h"
 #include "frontend/shade.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/clipping/truth.h"
 #include "lab/coverage/score.h"
 #include "lab/view_space.h"

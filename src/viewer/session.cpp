@@ -48,14 +48,14 @@ void step_method(std::span<const Method> methods, const Method*& method, int ste
 }
 
 // Switches between a filling method and the wireframe.
-void switch_edges(Side& side) {
+void switch_edges(std::span<const lab::CoverageMethod> choices, Side& side) {
   const lab::CoverageMethod*& method = side.choice.coverage;
   const bool filled = method->fills;
   const lab::CoverageMethod* const before = filled ? method : nullptr;
   if (!filled && side.filled != nullptr) {
     method = side.filled;
   } else {
-    do step_method(lab::drawing_methods(), method, 1);
+    do step_method(choices, method, 1);
     while (method->fills == filled);
   }
   side.filled = before;
@@ -244,10 +244,10 @@ void Session::switch_by(Command command, int step) {
   lab::StageMethods& choice = side.choice;
   switch (command) {
     case Command::coverage:
-      step_method(lab::drawing_methods(), choice.coverage, step);
+      step_method(coverage_choices(), choice.coverage, step);
       break;
     case Command::edges:
-      switch_edges(side);
+      switch_edges(coverage_choices(), side);
       break;
     case Command::clipping:
       step_method(lab::clipping_methods(), choice.clipping, step);
@@ -286,6 +286,13 @@ void Session::choose(std::string_view method) {
   if (!put(method, side.choice)) throw std::invalid_argument("unknown method '" + std::string(method) + "'");
   reset_results();
   ++state_.version;
+}
+
+std::span<const lab::CoverageMethod> Session::coverage_choices() const {
+  const auto all = lab::drawing_methods();
+  const auto without = all.first(all.size() - compositions().size());
+  const auto is_among = [&](const lab::CoverageMethod* m) { return m < without.data() + without.size(); };
+  return is_among(start_.choice.coverage) && is_among(sides_[state_.active].choice.coverage) ? without : all;
 }
 
 std::vector<int> Session::thread_counts() const {

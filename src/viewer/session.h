@@ -117,6 +117,9 @@ class Session {
   const Image& picture() const { return screen_.picture; }  // the last one
   tools::Size side_size() const { return side_size_; }      // of one side's picture
   int left_of(std::size_t side) const { return side == 0 ? 0 : screen_.picture.width - side_size_.width; }
+  // The coverage methods to choose from on the active side: compositions only if the session began with one
+  // or the side has one.
+  std::span<const lab::CoverageMethod> coverage_choices() const;
   // The numbers of threads to choose from: 1, 2, 4, …, the number of usable cores, and the one at the start.
   std::vector<int> thread_counts() const;
   // What the magnifier shows, in one side's picture.

@@ -15,7 +15,7 @@
 
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/cases/hard_triangles.h"
 #include "lab/cases/random_cases.h"
 #include "message_of.h"

@@ -23,7 +23,7 @@
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::conformance {
 

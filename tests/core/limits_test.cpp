@@ -16,7 +16,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "edgewise/visible.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "support.h"
 
 namespace edgewise {

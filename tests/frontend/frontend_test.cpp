@@ -14,7 +14,7 @@
 #include "edgewise/draw.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/cases/random_cases.h"
 #include "message_of.h"
 #include "support.h"

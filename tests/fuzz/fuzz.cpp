@@ -14,7 +14,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/draw.h"
 #include "frontend/mesh_clusters.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/truth/oracle.h"
 
 namespace edgewise::fuzz {

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "edgewise/scene.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 // libFuzzer has no header that declares this function.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

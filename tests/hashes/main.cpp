@@ -23,7 +23,7 @@
 #include "edgewise/draw.h"
 #include "edgewise/hash.h"
 #include "hashes/frames.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::hashes {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/coverage/score.h"
 #include "lab/lab_support.h"
 #include "lab/portable/portable.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/coverage_support.h"
 #include "lab/engine/engine.h"
 

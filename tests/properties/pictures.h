@@ -10,7 +10,7 @@
 
 #include "edgewise/frontend.h"
 #include "edgewise/scene.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "properties/property.h"
 
 namespace edgewise::testing {

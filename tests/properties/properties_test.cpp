@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/truth/oracle.h"
 #include "lab/truth/truth.h"
 #include "properties/pictures.h"

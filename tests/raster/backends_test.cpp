@@ -9,7 +9,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/draw.h"
 #include "every_backend.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "message_of.h"
 
 namespace edgewise {

@@ -7,7 +7,7 @@
 
 #include "edgewise/builtin.h"
 #include "edgewise/draw.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/cases/hard_triangles.h"
 #include "message_of.h"
 #include "raster/kernels.h"

@@ -11,7 +11,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
 #include "frontend/view.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "support.h"
 
 namespace edgewise {

@@ -113,7 +113,7 @@ TEST(Viewer, WireframesAreCulledAndLitLikeFaces) {
 TEST(Viewer, CyclesThroughAllCoverageMethodsAndExactOnesHaveNoErrors) {
   Session session = session_of("cubes");
   type(session, "ei<backspace>");
-  for (std::size_t i = 0; i < lab::drawing_methods().size(); ++i) {
+  for (std::size_t i = 0; i < session.coverage_choices().size(); ++i) {
     type(session, "b");
     const lab::CoverageMethod& method = *session.side(0).choice.coverage;
     if (!method.fills) {
@@ -135,6 +135,16 @@ TEST(Viewer, CyclesThroughAllCoverageMethodsAndExactOnesHaveNoErrors) {
   EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");
   type(session, "b<backspace>");
   EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");
+}
+
+TEST(Viewer, CyclesThroughCompositionsIfOneWasChosen) {
+  Session session = session_of("cubes");
+  const auto before = session.coverage_choices();
+  EXPECT_EQ(before.back().info.name, "wireframe");
+  session.choose(compositions().back().name);
+  EXPECT_EQ(session.coverage_choices().size(), before.size() + compositions().size());
+  type(session, "b");
+  EXPECT_EQ(session.side(0).choice.coverage, &before.front());
 }
 
 TEST(Viewer, ReplacesEachStageAlone) {

@@ -3,7 +3,7 @@
 
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::tools {
 

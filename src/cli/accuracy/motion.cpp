@@ -5,7 +5,7 @@
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/coverage/pixel_changes.h"
 
 namespace edgewise::tools {

@@ -17,7 +17,7 @@
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
 #include "frontend/mesh_clusters.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/cases/random_cases.h"
 #include "lab/to_stream.h"
 #include "lab/truth/oracle.h"

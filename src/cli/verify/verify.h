@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "edgewise/frontend.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "support/options.h"
 
 namespace edgewise::tools {

@@ -97,7 +97,7 @@ std::span<const CoverageMethod> coverage_methods();
 // Whether two draws of a method gave the same payloads and the same depths, bit for bit.
 bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b);
 
-// All methods that the viewer can draw: the coverage methods, then wireframe() and compositions().
+// All methods that the viewer can draw: the coverage methods, then wireframe(), then compositions().
 std::span<const CoverageMethod> drawing_methods();
 // Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const CoverageMethod& find_drawing_method(std::string_view name);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "edgewise/framebuffer.h"
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/coverage/coverage.h"
 #include "lab/truth/truth.h"
 

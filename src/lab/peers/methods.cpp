@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/cracks.h"
 #include "lab/peers/peer.h"

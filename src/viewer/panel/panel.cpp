@@ -160,7 +160,7 @@ class Panel::Contents {
       ImGui::SameLine();
       text(kStrong, state().active == 0 ? "side: left" : "side: right");
     }
-    method("coverage", 'b', lab::drawing_methods(), c.coverage, c.our_coverage());
+    method("coverage", 'b', session_->coverage_choices(), c.coverage, c.our_coverage());
     method("clipping", 'x', lab::clipping_methods(), c.clipping, c.our_clipping());
     method("visibility", 'z', lab::visibility_methods(), c.visibility, c.our_visibility());
     method("facing", 'n', lab::facing_methods(), c.facing, c.our_facing());

@@ -1,4 +1,4 @@
-#include "lab/cases/frame_comparison.h"
+#include "lab/cases/backend_comparison.h"
 
 #include <algorithm>
 #include <bit>
