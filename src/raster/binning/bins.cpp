@@ -189,8 +189,8 @@ void Bins::bin_slice(Work& work, int worker, std::size_t index) {
     for_each_packet(triangles, [&](const ScreenTriangle* packet, std::size_t at) {
       const bool with_masks = work.with_masks && slice.masks.used_bytes() <= max_mask_bytes;
       work.sort(packet, grid, with_masks, stored, sorted);  // made triangles are cached: no prefetch
-      if (!stored &&
-          static_cast<std::size_t>(std::popcount(sorted.boxed)) > slice.end_kept - slice.next_kept) {
+      const auto boxed = static_cast<std::size_t>(std::popcount(sorted.boxed));
+      if (!stored && boxed > slice.end_kept - slice.next_kept) {
         slice.next_kept = work.next_kept.fetch_add(kKeptAtOnce, std::memory_order_relaxed);
         slice.end_kept = slice.next_kept + kKeptAtOnce;
       }
