@@ -23,28 +23,16 @@
 
 namespace edgewise {
 
-namespace {
-
-constexpr Cull kCullModes[] = {Cull::none, Cull::back, Cull::front, Cull::both};
-
-}  // namespace
-
 std::span<const Cull> cull_modes() {
-  return kCullModes;
+  static constexpr Cull kModes[] = {Cull::none, Cull::back, Cull::front, Cull::both};
+  return kModes;
 }
 
 std::string_view name_of(Cull cull) {
-  switch (cull) {
-    case Cull::none:
-      return "none";
-    case Cull::back:
-      return "back";
-    case Cull::front:
-      return "front";
-    case Cull::both:
-      return "both";
-  }
-  throw std::invalid_argument("not a culling mode");
+  constexpr std::string_view kNames[] = {"none", "back", "front", "both"};
+  const auto i = static_cast<std::size_t>(cull);
+  if (i >= std::size(kNames)) throw std::invalid_argument("not a culling mode");
+  return kNames[i];
 }
 
 FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {

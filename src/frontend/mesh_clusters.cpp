@@ -10,23 +10,15 @@ namespace edgewise {
 
 namespace {
 
-// The first triangle of a cluster, and the number of its triangles.
-struct ClusterTriangles {
-  std::size_t first, count;
-};
-ClusterTriangles triangles_of(const Mesh& mesh, std::size_t cluster) {
-  const std::size_t first = cluster * kClusterTriangles;
-  return {first, std::min(kClusterTriangles, mesh.triangles.size() - first)};
-}
-
 // Requires that all vertices exist.
-MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {
+MeshCluster make_cluster(const Mesh& mesh, std::size_t cluster) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   MeshCluster c{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
   bool all_finite = true;
-  for (std::size_t i = 0; i < triangles.count; ++i)
+  const std::size_t first = cluster * kClusterTriangles;
+  for (std::size_t i = first; i < std::min(first + kClusterTriangles, mesh.triangles.size()); ++i)
     for (int k = 0; k < 3; ++k) {
-      const glm::vec3 v = mesh.positions[mesh.triangles[triangles.first + i][k]];
+      const glm::vec3 v = mesh.positions[mesh.triangles[i][k]];
       c.low = glm::min(c.low, v), c.high = glm::max(c.high, v);
       all_finite = all_finite && is_finite(v);
     }
@@ -38,13 +30,12 @@ MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {
 
 std::vector<MeshCluster> make_clusters(const Mesh& mesh) {
   std::vector<MeshCluster> clusters(cluster_count(mesh));
-  for (std::size_t i = 0; i < clusters.size(); ++i) clusters[i] = make_cluster(mesh, triangles_of(mesh, i));
+  for (std::size_t i = 0; i < clusters.size(); ++i) clusters[i] = make_cluster(mesh, i);
   return clusters;
 }
 
 void renew_clusters(Mesh& mesh) {
-  for (std::size_t i = 0; i < mesh.clusters.size(); ++i)
-    mesh.clusters[i] = make_cluster(mesh, triangles_of(mesh, i));
+  for (std::size_t i = 0; i < mesh.clusters.size(); ++i) mesh.clusters[i] = make_cluster(mesh, i);
 }
 
 void make_clusters(Drawable& drawable) {

@@ -145,6 +145,7 @@ void SceneMaker::make_visible(Worker& w, std::size_t begin, std::size_t end, Chu
 }
 
 void SceneMaker::finish() {
+  TriangleMaker::finish();
   for (std::size_t i = 0; i < sights_.size(); ++i) {
     const Mesh& mesh = mesh_of(i);
     if (mesh.triangles.empty()) {  // no range has it

@@ -103,9 +103,6 @@ struct IndexRange {
 // The least and the greatest vertex that triangles begin … end - 1 of the mesh name, at least one triangle.
 using IndexRangeKernel = IndexRange (*)(const Mesh& mesh, std::size_t begin, std::size_t end);
 
-// `target` must be resolved.
-IndexRangeKernel index_range_kernel(SimdTarget target);
-
 // The transformed vertices of consecutive triangles.
 struct Corners {
   static constexpr std::uint32_t kVertices = 1 << 16;  // at most; a power of two
@@ -121,14 +118,13 @@ struct Corners {
 using AssembleKernel = void (*)(const MeshTask& task, std::size_t begin, std::size_t end,
                                 const Corners& corners, ChunkOutput& out);
 
-// `target` must be resolved.
-AssembleKernel assemble_kernel(SimdTarget target);
-
 // Appends the visible pieces of triangles begin … end - 1 to the output, with the payload that the options
 // select.
 using StreamKernel = void (*)(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOutput& out);
 
 // `target` must be resolved.
+IndexRangeKernel index_range_kernel(SimdTarget target);
+AssembleKernel assemble_kernel(SimdTarget target);
 StreamKernel stream_kernel(SimdTarget target);
 
 // one_by_one.cpp handles a single triangle in any condition. The kernels process the common case in vectors

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/triangle_source.h"
+#include "frontend/scene_checks.h"
 #include "frontend/tasks.h"
 
 namespace edgewise {
@@ -37,6 +38,8 @@ class TriangleMaker : public TriangleSource {
     append(worker, begin, end, out);
     return {out.triangles, out.count};
   }
+  // Also throws std::invalid_argument if clipping made too many triangles.
+  void finish() override { checked_count(stats().emitted); }
   ChunkOutput& output(int worker) { return outputs_[static_cast<std::size_t>(worker)].out; }
 
   FrontendStats stats() const {

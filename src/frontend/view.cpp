@@ -200,14 +200,4 @@ ClipVertex ScreenTransform::operator()(glm::vec3 position) const {
   return {v.x, v.y, has_z ? glm::dot(z, p) : v.z, v.z};
 }
 
-glm::dmat4 screen_matrix(const Camera& camera, int width_px, int height_px) {
-  const ViewVolume view = view_volume(camera, width_px, height_px);
-  const glm::dmat3 pixels = pixels_of(camera, width_px, height_px);
-  const double depth_scale = view.far_z / (view.far_z - view.near_z);
-  const auto column = [&](glm::dvec3 v) { return glm::dvec4(v.x, v.y, depth_scale * v.z, v.z); };
-  glm::dmat4 m(column(pixels[0]), column(pixels[1]), column(pixels[2]), column(pixels * -camera.position));
-  m[3].z -= depth_scale * view.near_z;
-  return m;
-}
-
 }  // namespace edgewise

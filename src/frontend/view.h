@@ -62,8 +62,4 @@ struct ScreenTransform {
   glm::dvec4 z{0.0}, w{0.0};
 };
 
-// World space → pixels and depth in [0, 1], all times w. In double, for labels and outlines. Throws
-// std::invalid_argument if a value of the camera is out of range.
-glm::dmat4 screen_matrix(const Camera& camera, int width_px, int height_px);
-
 }  // namespace edgewise

@@ -101,11 +101,11 @@ std::size_t vertex_count(const Scene& scene) {
 namespace {
 
 // Adds a label centred on a point in the world, if the strip shows it.
-void add_label(const glm::dmat4& to_screen, glm::dvec3 world, const Strip& strip, std::string words,
+void add_label(const View& view, glm::dvec3 world, const Strip& strip, std::string words,
                std::uint32_t colour, std::vector<Label>& labels) {
-  const glm::dvec4 p = to_screen * glm::dvec4(world, 1.0);
-  const double x = p.x / p.w, y = p.y / p.w;
-  if (p.w > 0.0 && p.z >= 0.0 && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
+  const glm::dvec3 p = view.pixels * (world - view.origin);
+  const double x = p.x / p.z, y = p.y / p.z;
+  if (p.z >= view.volume.near_z && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
     labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
 }
 
@@ -118,21 +118,22 @@ std::uint32_t colour_of(TriangleState state) {
 
 void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label>& labels) {
   if (vertex_count(scene) > kMostLabels) return;
-  const glm::dmat4 to_screen = screen_matrix(scene.camera, strip.width, strip.height);
+  const View view(scene.camera, strip.width, strip.height);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    const glm::dmat4 to_pixels = to_screen * model_matrix(mesh, instance);
+    const glm::dmat4 model = model_matrix(mesh, instance);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-      add_label(to_pixels, mesh.positions[i], strip, std::to_string(i), rgb(255, 255, 255), labels);
+      add_label(view, model * glm::dvec4(mesh.positions[i], 1.0), strip, std::to_string(i),
+                rgb(255, 255, 255), labels);
   }
 }
 
 void add_face_letters(const Camera& camera, std::span<const FaceState> faces, const Strip& strip,
                       std::vector<Label>& labels) {
   if (faces.size() > kMostLabels) return;
-  const glm::dmat4 to_screen = screen_matrix(camera, strip.width, strip.height);
+  const View view(camera, strip.width, strip.height);
   for (const FaceState& face : faces)
-    add_label(to_screen, face.centre, strip, {letter_of(face)}, colour_of(face.state), labels);
+    add_label(view, face.centre, strip, {letter_of(face)}, colour_of(face.state), labels);
 }
 
 }  // namespace edgewise::viewer

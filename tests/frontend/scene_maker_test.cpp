@@ -5,6 +5,9 @@
 
 #include "core/random.h"
 #include "edgewise/frontend.h"
+#include "edgewise/limits.h"
+#include "frontend/scene_maker.h"
+#include "message_of.h"
 #include "support.h"
 
 namespace edgewise {
@@ -89,6 +92,24 @@ TEST(FrontendOrder, HoldsWhenTheOutputGrows) {
           ASSERT_EQ(frontend.unsnapped()[i].x_px[1], frontend.unsnapped()[i % kPieces].x_px[1]);
       }
     }
+}
+
+// Both Frontend::run() and draw() finish what makes the triangles. Only the counts are too large here.
+TEST(TriangleMaker, RefusesTooManyTrianglesAfterClipping) {
+  const FrontendOptions options{.width = 9, .height = 9};
+  const Scene scene;
+  const TriangleStream stream;
+  SceneMaker of_scene;
+  StreamMaker of_stream;
+  of_scene.set(scene, options, resolve(SimdTarget::best));
+  of_stream.set(stream, options, resolve(SimdTarget::best));
+  for (TriangleMaker* maker : std::initializer_list<TriangleMaker*>{&of_scene, &of_stream}) {
+    maker->start_workers(2, 1, nullptr);
+    maker->output(0).stats.emitted = kMaxTriangles;
+    maker->finish();
+    maker->output(1).stats.emitted = 1;
+    EXPECT_EQ(message_of([&] { maker->finish(); }), "1073741825 triangles are more than 1073741824");
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "every_backend.h"
 #include "lab/cases/backend_comparison.h"
 #include "message_of.h"
+#include "raster/binning/bins.h"
 
 namespace edgewise {
 namespace {
@@ -171,7 +172,7 @@ TriangleStream stream_to_clip(std::size_t count, Clip&& clip) {
 
 TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
   const Drawable drawables[] = {stream_to_clip(5'000, [](std::size_t i) { return i % 500 == 1; }),
-                                stream_to_clip(12'000, [](std::size_t) { return true; }),  // do not fit
+                                stream_to_clip(20'000, [](std::size_t) { return true; }),  // fit only later
                                 stream_to_clip(3, [](std::size_t) { return false; }), TriangleStream{},
                                 find_scene("cubes").make({})};
   struct Way {
@@ -231,7 +232,7 @@ TEST(SceneSource, NoticesAMissingVertexBeforeTheFrameIsWritten) {
   mesh.triangles.back().y = static_cast<std::uint32_t>(mesh.positions.size());
   const FrontendOptions options{.width = 64, .height = 64, .cull = Cull::none};
   for (const BackendInfo& info : backends())
-    for (const int threads : {1, 2}) {
+    for (const int threads : {1, 2, 3}) {
       Frontend frontend;
       Framebuffer frame(64, 64), before(64, 64);
       lab::poison(frame), lab::poison(before);
@@ -241,6 +242,40 @@ TEST(SceneSource, NoticesAMissingVertexBeforeTheFrameIsWritten) {
                 "triangle ");
       testing::expect_same(before, frame, std::string(info.name));
     }
+}
+
+// All triangles cross the near plane and the guard band. Each becomes five.
+TEST(SceneSource, IsMadeTwiceInTheFirstFrameAtMost) {
+  struct Probe : Backend {
+    bool draw_source(TriangleSource& source, const FramePart& part, const Execution& execution) override {
+      const CellGrid grid{part.frame.width, part.frame.height, 6, 6};
+      return bins.build(source, grid, execution.threads, execution.target, true);
+    }
+    void draw_checked(std::span<const ScreenTriangle>, const FramePart&, const Execution&) override {
+      ++made_twice;
+    }
+    Bins bins;
+    int made_twice = 0;
+  };
+  constexpr std::size_t kCount = 100'000;
+  Scene scene;
+  scene.instances.resize(1);
+  scene.meshes.push_back({{{48, 67, 2}, {-39, -82, -1}, {28, 5, -5}},
+                          std::vector<glm::uvec3>(kCount, {0, 1, 2}),
+                          std::vector<std::uint32_t>(kCount)});
+  const FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none};
+  for (const int threads : {1, 2, 3}) {
+    Probe probe;
+    Frontend frontend;
+    Framebuffer frame(100, 100);
+    for (int i = 0; i < 3; ++i) {
+      draw(scene, frontend, options, probe, frame.view(), {}, {.threads = threads});
+      EXPECT_EQ(probe.made_twice, 1) << threads << " threads, frame " << i;
+    }
+    const FrontendStats& stats = frontend.stats();
+    EXPECT_EQ(stats.clipped_near + stats.clipped_guard, 2 * kCount);
+    EXPECT_EQ(stats.emitted, 5 * kCount);
+  }
 }
 
 TEST(StreamSource, MayBeUsedAgainAfterAnException) {

@@ -72,18 +72,24 @@ class Equal final : public TriangleSource {
   std::vector<ScreenTriangle> made_;
 };
 
-TEST(Bins, KeepASourcesTrianglesUpToTwiceItsInputs) {
-  Bins bins;
-  const auto fits = [&](std::size_t of_eight, int threads) {
-    Equal source(100'000, of_eight);
-    return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), true);
-  };
-  for (const int threads : {1, 2}) {
-    EXPECT_TRUE(fits(16, threads));
-    std::size_t kept = 0;
-    bins.for_each_segment(0, [&](const Bins::Segment& segment) { kept += segment.indices.size(); });
-    EXPECT_EQ(kept, 200'000u);
-    EXPECT_FALSE(fits(24, threads));
+// Up to twice its inputs; after a source that made more, up to the seven that clipping makes of one.
+TEST(Bins, HaveRoomForASourcesTriangles) {
+  for (const int threads : {1, 2, 3}) {
+    Bins bins;
+    const auto fits = [&](std::size_t of_eight) {
+      Equal source(100'000, of_eight);
+      return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), true);
+    };
+    const auto kept = [&] {
+      std::size_t count = 0;
+      bins.for_each_segment(0, [&](const Bins::Segment& segment) { count += segment.indices.size(); });
+      return count;
+    };
+    EXPECT_TRUE(fits(16));
+    EXPECT_EQ(kept(), 200'000u);
+    EXPECT_FALSE(fits(32));
+    EXPECT_TRUE(fits(56));
+    EXPECT_EQ(kept(), 700'000u);
   }
 }
 

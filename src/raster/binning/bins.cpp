@@ -153,6 +153,10 @@ Slicing slicing_of(std::size_t inputs, std::size_t cells, std::size_t threads) {
           std::clamp(inputs / (16 * first) / kPacket * kPacket, kShortest, kLongest)};
 }
 
+// A slice claims room for so many kept triangles at once. Less than a packet of it stays empty, but for the
+// last.
+constexpr std::size_t kKeptAtOnce = 8192;
+
 }  // namespace
 
 struct Bins::Work {
@@ -165,10 +169,9 @@ struct Bins::Work {
   std::atomic<bool> all_fit{true};
 };
 
-bool Bins::bin_slice(Work& work, int worker, std::size_t index) {
+void Bins::bin_slice(Work& work, int worker, std::size_t index) {
   // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
   constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
-  constexpr std::size_t kKeptAtOnce = 4 * TriangleSource::kInputsAtOnce;
   const CellGrid& grid = work.grid;
   const auto cells = static_cast<std::size_t>(grid.cells());
   const bool stored = work.stored;
@@ -182,20 +185,21 @@ bool Bins::bin_slice(Work& work, int worker, std::size_t index) {
   SortedPacket sorted;
   while (const auto inputs = work.all_fit ? ranges_.next(index) : std::nullopt) {
     const auto triangles = work.source.make(worker, inputs->begin, inputs->end);
-    if (!stored && triangles.size() > slice.end_kept - slice.next_kept) {
-      const std::size_t room = std::max(kKeptAtOnce, triangles.size());
-      slice.next_kept = work.next_kept.fetch_add(room, std::memory_order_relaxed);
-      slice.end_kept = slice.next_kept + room;
-      if (slice.end_kept > kept_.capacity()) return false;
-    }
     max_mask_bytes += (inputs->end - inputs->begin) * kMaskBytesPerTriangle;
     for_each_packet(triangles, [&](const ScreenTriangle* packet, std::size_t at) {
       const bool with_masks = work.with_masks && slice.masks.used_bytes() <= max_mask_bytes;
       work.sort(packet, grid, with_masks, stored, sorted);  // made triangles are cached: no prefetch
-      slice.bin_packet(packet, sorted, inputs->begin + at, grid);
+      const auto boxed = static_cast<std::size_t>(std::popcount(sorted.boxed));
+      if (!stored && boxed > slice.end_kept - slice.next_kept) {
+        slice.next_kept = work.next_kept.fetch_add(kKeptAtOnce, std::memory_order_relaxed);
+        slice.end_kept = slice.next_kept + kKeptAtOnce;
+      }
+      if (slice.end_kept <= kept_.capacity())
+        slice.bin_packet(packet, sorted, inputs->begin + at, grid);
+      else
+        work.all_fit = false;
     });
   }
-  return true;
 }
 
 bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
@@ -206,18 +210,18 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
   if (slices_.size() < slicing.most) slices_.resize(slicing.most);
   ranges_.start(count, slicing.at_once, slicing.first, slicing.most);
   const bool stored = source.stored() != nullptr || count == 0;
-  // Clipping may double the triangles. The memory is not touched before it is used.
-  if (!stored) kept_.reserve(2 * count + slicing.most * 7 * TriangleSource::kInputsAtOnce);
+  // The memory is not touched before it is used.
+  if (!stored) kept_.reserve(kept_per_input_ * count + slicing.most * kKeptAtOnce);
   triangles_ = stored ? source.stored() : kept_.data();
   Work work{source, grid, packet_sorter(target), with_masks, stored, slicing};
   parallel_for(threads, static_cast<int>(slicing.first), [&](int worker) {
     for (std::optional slice{static_cast<std::size_t>(worker)}; slice; slice = ranges_.split())
-      if (!bin_slice(work, worker, *slice)) {
-        work.all_fit = false;
-        return;
-      }
+      bin_slice(work, worker, *slice);
   });
-  if (!work.all_fit) return false;
+  if (!work.all_fit) {
+    kept_per_input_ = 8;  // clipping makes at most 7
+    return false;
+  }
   source.finish();
   in_order_.clear();
   in_order_.reserve(slices_.size());

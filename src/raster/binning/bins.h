@@ -32,8 +32,8 @@ class Bins {
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. `with_masks` needs cells that are tiles, and makes no masks on
   // the scalar target. Throws std::length_error if a slice's lists exceed 2^32 entries, and what
-  // TriangleSource::finish() throws. Returns false, with incomplete contents, if the room for made triangles
-  // might not suffice.
+  // TriangleSource::finish() throws. Returns false, with incomplete contents, if clipping more than doubled
+  // the triangles of a source for the first time. Later sources get the room.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            bool with_masks);
 
@@ -176,13 +176,14 @@ class Bins {
 
   // What all workers need to bin slices.
   struct Work;
-  // Bins all inputs of a slice. Returns false if there is no room for kept triangles.
-  bool bin_slice(Work& work, int worker, std::size_t slice);
+  // Bins all inputs of a slice, until there is no room for kept triangles.
+  void bin_slice(Work& work, int worker, std::size_t slice);
 
   std::vector<Slice> slices_;
   SliceRanges ranges_;
   std::vector<const Slice*> in_order_;
   Buffer<ScreenTriangle> kept_;
+  std::size_t kept_per_input_ = 2;  // that there is room for
   const ScreenTriangle* triangles_ = nullptr;
   bool has_masks_ = false;
 };
