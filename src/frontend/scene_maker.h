@@ -33,7 +33,7 @@ class SceneMaker final : public TriangleMaker {
     out_of_sight
   };
 
-  struct alignas(128) Worker {
+  struct alignas(64) Worker {
     std::size_t instance = ~std::size_t{0};  // whose vertices the window holds
     std::optional<MeshTask> task;
     std::optional<ShadeTask> light;

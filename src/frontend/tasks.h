@@ -72,9 +72,9 @@ struct TriangleBuffers {
 };
 
 // Visible triangles of consecutive submitted ones. Assembly writes ids as the payloads of a mesh's triangles.
-// For Payload::colour, colours then replace the ids. The alignment keeps two workers' outputs out of the same
-// pair of cache lines, which processors fetch together.
-struct alignas(128) ChunkOutput {
+// For Payload::colour, colours then replace the ids. Aligned, so that two workers' outputs share no
+// cache line.
+struct alignas(64) ChunkOutput {
   // For the screen triangles of so many inputs. A triangle clipped by six planes has at most nine vertices,
   // so it becomes at most seven triangles. The last vector is stored whole.
   static constexpr std::size_t room_for(std::size_t inputs) { return inputs * 7 + 16; }

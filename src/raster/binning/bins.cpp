@@ -188,7 +188,7 @@ void Bins::bin_slice(Work& work, int worker, std::size_t index) {
     max_mask_bytes += (inputs->end - inputs->begin) * kMaskBytesPerTriangle;
     for_each_packet(triangles, [&](const ScreenTriangle* packet, std::size_t at) {
       const bool with_masks = work.with_masks && slice.masks.used_bytes() <= max_mask_bytes;
-      work.sort(packet, grid, with_masks, stored, sorted);  // made triangles are cached: no prefetch
+      work.sort(packet, grid, with_masks, sorted);
       const auto boxed = static_cast<std::size_t>(std::popcount(sorted.boxed));
       if (!stored && boxed > slice.end_kept - slice.next_kept) {
         slice.next_kept = work.next_kept.fetch_add(kKeptAtOnce, std::memory_order_relaxed);

@@ -75,10 +75,6 @@ class Bins {
         const std::uint32_t segment_end = slot + kIndicesPerSegment;
         const bool last = slice.cursor[c] <= segment_end && slice.cursor[c] > slot;
         const std::uint32_t end = last ? slice.cursor[c] : segment_end;
-        if (!last) {  // the next segment may lie anywhere: prefetch it
-          const std::uint32_t* const next = &slice.slots[slice.slots[segment_end]];
-          __builtin_prefetch(next), __builtin_prefetch(next + kIndicesPerSegment);
-        }
         visit(Segment{{&slice.slots[slot], end - slot}, i, slot});
         slot = last ? kNone : slice.slots[segment_end];
       }
@@ -104,7 +100,6 @@ class Bins {
    public:
     MaskReader(const Bins& bins, int cell) : bins_(bins), cell_(static_cast<std::size_t>(cell)) {
       if (!bins_.has_masks_) return;
-      for (const Slice* slice : bins_.in_order_) slice->masks.prefetch_first(cell_);
       reader_ = {bins_.in_order_[0]->masks, cell_};
     }
     // Draws the remaining masks that precede triangle `index` of a segment.
@@ -152,9 +147,8 @@ class Bins {
     }
   }
 
-  // Different threads write to slices. The alignment keeps them in different pairs of cache lines, which
-  // processors fetch together (false sharing).
-  struct alignas(128) Slice {
+  // Aligned, so that threads that write to different slices share no cache line.
+  struct alignas(64) Slice {
     std::vector<std::uint32_t> slots;          // segments of kSlotsPerSegment
     std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first segment, next slot to write
     std::uint32_t used = 0;                    // slots in use

@@ -72,26 +72,18 @@ class MaskLists {
     }
 
    private:
-    // Also prefetches the segment after the next.
     void enter(const Header* segment) {
       at_ = begin_of(segment);
       segment_end_ = lists_->segment_of(list_end_) == segment ? list_end_ : lists_->end_of(segment);
-      if (segment->next != nullptr && segment->next->next != nullptr)
-        prefetch_segment(segment->next->next, std::min(lists_->segment_bytes_, kReadAhead));
     }
 
     const MaskLists* lists_ = nullptr;
     const CoverageMask *at_ = nullptr, *segment_end_ = nullptr, *list_end_ = nullptr;
   };
-  // Prefetches the beginning of a list.
-  void prefetch_first(std::size_t cell) const {
-    if (const Header* first = lists_[cell].first)
-      prefetch_segment(first, std::min(segment_bytes_, kReadAhead));
-  }
 
  private:
   static constexpr std::size_t kSmallestSegment = 256, kLargestSegment = 4096;  // bytes, powers of two
-  static constexpr std::size_t kCacheLine = 64, kReadAhead = 1024;
+  static constexpr std::size_t kCacheLine = 64;
   // At the beginning of a segment, which is aligned to its size.
   struct alignas(sizeof(CoverageMask)) Header {
     Header* next;
@@ -113,10 +105,6 @@ class MaskLists {
   const CoverageMask* end_of(const Header* segment) const {
     return reinterpret_cast<const CoverageMask*>(reinterpret_cast<const std::byte*>(segment) +
                                                  segment_bytes_);
-  }
-  static void prefetch_segment(const Header* segment, std::size_t bytes) {
-    for (std::size_t i = 0; i < bytes; i += kCacheLine)
-      __builtin_prefetch(reinterpret_cast<const std::byte*>(segment) + i);
   }
 
   CoverageMask* add_segment(List& list);

@@ -9,12 +9,10 @@
 //    no branch.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/binning/packet_sorter.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstddef>
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
@@ -30,7 +28,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 
-void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool, bool, SortedPacket& out) {
+void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool, SortedPacket& out) {
   out.boxed = out.masked = 0;
   for (int i = 0; i < kPacket; ++i) {
     contract::PixelBox box = contract::pixel_box(triangles[i], grid.width, grid.height);
@@ -45,8 +43,6 @@ void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool, bo
 
 #else
 
-constexpr std::size_t kPrefetchBytes = 2560;  // prefetch distance
-
 // Lanes with an empty box store unspecified values.
 HWY_INLINE void store_cell_boxes(const BoxLanes& box, const CellGrid& grid, CellBox* out) {
   const V one = hn::Set(D{}, 1);
@@ -58,15 +54,11 @@ HWY_INLINE void store_cell_boxes(const BoxLanes& box, const CellGrid& grid, Cell
                         reinterpret_cast<std::int32_t*>(out));
 }
 
-void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool with_masks, bool prefetch,
-                 SortedPacket& out) {
+void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool with_masks, SortedPacket& out) {
   Covering covering;
   out.boxed = out.masked = 0;
   for (int i = 0; i < kPacket; i += kLanes) {
     const TriangleLanes t = load_triangles([&](int lane) { return triangles + i + lane; });
-    if (prefetch)
-      for (std::size_t byte = 0; byte < kLanes * sizeof(ScreenTriangle); byte += 64)
-        hwy::Prefetch(reinterpret_cast<const char*>(triangles + i) + kPrefetchBytes + byte);
     const BoxLanes box(t.x, t.y, grid.drawn());
     std::uint32_t boxed = mask_bits(box.filled);
     if (with_masks) {

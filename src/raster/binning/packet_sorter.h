@@ -28,10 +28,9 @@ struct SortedPacket {
   Half first[kQuadrants][kPacket], second[kQuadrants][kPacket];
 };
 
-// `triangles`: kPacket of them. The scalar target makes no masks, others only if `with_masks`. `prefetch`:
-// prefetch the triangles that follow in memory.
+// `triangles`: kPacket of them. The scalar target makes no masks, others only if `with_masks`.
 using PacketSorter = void (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool with_masks,
-                              bool prefetch, SortedPacket& out);
+                              SortedPacket& out);
 
 // `target` must be resolved.
 PacketSorter packet_sorter(SimdTarget target);

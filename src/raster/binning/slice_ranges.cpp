@@ -41,7 +41,6 @@ std::optional<SliceRanges::Inputs> SliceRanges::next(std::size_t slice) {
 }
 
 std::optional<std::size_t> SliceRanges::split() {
-  constexpr std::size_t kShort = 3;  // pieces
   const std::size_t slice = std::atomic_ref(next_).fetch_add(1, std::memory_order_relaxed);
   while (slice < most_) {  // stays unused if there is nothing to take
     std::size_t longest = 0;
@@ -51,7 +50,7 @@ std::optional<std::size_t> SliceRanges::split() {
       if (Pieces(left).count() > Pieces(bits).count()) longest = i, bits = left;
     }
     const Pieces rest(bits);
-    if (rest.count() < kShort) break;
+    if (rest.count() < 2) break;
     const std::size_t middle = rest.end - rest.count() / 2;
     if (slices_[longest].left.compare_exchange_strong(bits, Pieces(rest.begin, middle).bits(),
                                                       std::memory_order_relaxed)) {

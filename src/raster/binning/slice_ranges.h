@@ -22,15 +22,15 @@ class SliceRanges {
   void start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most);
   // Takes the next inputs of a slice, up to `at_once`. Returns nothing at its end. A slice has one worker.
   std::optional<Inputs> next(std::size_t slice);
-  // Makes a slice of the second half of the longest rest of a slice, and returns it. Returns nothing if all
-  // rests are short, or there are `most` slices.
+  // Makes a slice of the second half of the longest rest of a slice, and returns it. Returns nothing if no
+  // rest has two pieces, or there are `most` slices.
   std::optional<std::size_t> split();
   // The slices, by the order of their inputs. Call it when all workers are done.
   std::span<const std::size_t> in_order();
 
  private:
   // Pieces begin … end - 1 are left, 32 bits each. The alignment is that of Bins::Slice.
-  struct alignas(128) Slice {
+  struct alignas(64) Slice {
     std::atomic<std::uint64_t> left{0};
     std::size_t begin = 0;
     bool used = false;

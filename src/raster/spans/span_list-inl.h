@@ -194,8 +194,7 @@ class SpanList {
 #endif
 
 // Draws masks up to the first with a rank above `last`, and returns their number.
-HWY_NOINLINE inline std::size_t draw_masks(SpanTile& tile, std::span<const CoverageMask> masks,
-                                           std::uint32_t last) {
+inline std::size_t draw_masks(SpanTile& tile, std::span<const CoverageMask> masks, std::uint32_t last) {
   const hn::CappedTag<std::int32_t, kMaskSide> d;
   constexpr int kColumns = static_cast<int>(hn::MaxLanes(d)), kBlocks = kMaxTile / 4;
   const auto set = [&](std::uint32_t v) { return hn::Set(d, static_cast<std::int32_t>(v)); };
