@@ -21,9 +21,11 @@ void SliceRanges::use(std::size_t slice, std::size_t begin, std::size_t end) {
   slices_[slice].left.store(Pieces(begin, end).bits(), std::memory_order_relaxed);
 }
 
-void SliceRanges::start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most) {
+void SliceRanges::start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most,
+                        std::size_t least_rest) {
   if (slices_.size() < most) slices_ = std::vector<Slice>(most);
   count_ = count, at_once_ = at_once, most_ = most, next_ = first;
+  least_rest_ = std::max(least_rest, 2 * at_once);
   const std::size_t pieces = (count + at_once - 1) / at_once;
   for (Slice& slice : slices_) slice.left = 0, slice.used = false;
   for (std::size_t i = 0; i < first; ++i) use(i, pieces * i / first, pieces * (i + 1) / first);
@@ -50,7 +52,7 @@ std::optional<std::size_t> SliceRanges::split() {
       if (Pieces(left).count() > Pieces(bits).count()) longest = i, bits = left;
     }
     const Pieces rest(bits);
-    if (rest.count() < 2) break;
+    if (rest.count() * at_once_ < least_rest_) break;
     const std::size_t middle = rest.end - rest.count() / 2;
     if (slices_[longest].left.compare_exchange_strong(bits, Pieces(rest.begin, middle).bits(),
                                                       std::memory_order_relaxed)) {

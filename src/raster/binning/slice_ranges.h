@@ -17,13 +17,14 @@ class SliceRanges {
     std::size_t begin, end;
   };
 
-  // Cuts `count` inputs into `first` slices of equal length. Splitting them makes up to `most` slices. Both
-  // need less than 2^32 pieces of `at_once` inputs.
-  void start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most);
+  // Cuts `count` inputs into `first` slices of equal length. Splitting rests of at least `least_rest` inputs
+  // makes up to `most` slices. Both need less than 2^32 pieces of `at_once` inputs.
+  void start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most,
+             std::size_t least_rest);
   // Takes the next inputs of a slice, up to `at_once`. Returns nothing at its end. A slice has one worker.
   std::optional<Inputs> next(std::size_t slice);
-  // Makes a slice of the second half of the longest rest of a slice, and returns it. Returns nothing if no
-  // rest has two pieces, or there are `most` slices.
+  // Makes a slice of the second half of the longest rest of a slice, and returns it. Returns nothing if all
+  // rests are too short, or there are `most` slices.
   std::optional<std::size_t> split();
   // The slices, by the order of their inputs. Call it when all workers are done.
   std::span<const std::size_t> in_order();
@@ -40,7 +41,7 @@ class SliceRanges {
   std::vector<Slice> slices_;
   std::vector<std::size_t> order_;
   std::size_t next_ = 0;  // the next slice, if it is less than `most`; accessed atomically
-  std::size_t most_ = 0, count_ = 0, at_once_ = 1;
+  std::size_t most_ = 0, count_ = 0, at_once_ = 1, least_rest_ = 0;
 };
 
 }  // namespace edgewise
