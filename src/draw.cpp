@@ -32,6 +32,7 @@ void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& o
   check(frame);
   const Execution resolved = checked(execution);
   const FramePart part = checked(frame, pass);
+  // Where nothing is drawn, the front end still counts its triangles.
   if (is_empty(part) || !DrawAccess::draw_source(drawable, frontend, options, backend, part, resolved))
     backend.draw(frontend.run(drawable, options, resolved), frame, pass, resolved);
 }

@@ -24,8 +24,10 @@ class Bands final : public Backend {
  private:
   bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
     const FrameView& frame = part.frame;
+    // A cell is a band.
     const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2, part.x0, part.y0};
-    if (!bins_.build(triangles, grid, execution.threads, execution.target, false)) return false;
+    if (!bins_.build(triangles, grid, execution.threads, execution.target, /*with_masks=*/false))
+      return false;
     // Each vector of pixels lies in the frame, which must be as wide as the longest vector.
     const FrameKernel fill = fill_(frame.width < kLongestVector ? SimdTarget::scalar : execution.target);
     const ClearKernel clear = clear_kernel(execution.target);
@@ -42,7 +44,7 @@ class Bands final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
     StoredTriangles stored(triangles);
-    draw_source(stored, part, execution);  // always true: stored triangles are not copied
+    draw_source(stored, part, execution);  // always true: stored triangles need no room
   }
 
   FrameKernel (*const fill_)(SimdTarget);

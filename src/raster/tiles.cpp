@@ -15,7 +15,8 @@ namespace edgewise {
 
 namespace {
 
-// May be true for an empty tile. A tile that the frame's right side cuts may be narrower than a vector.
+// Call it for tiles that are not empty. A tile that the frame's right side cuts may be narrower than a
+// vector.
 bool is_light(const Bins& bins, const CellGrid& grid, int cell) {
   return bins.few(cell, kLightTriangles) && ((cell % grid.columns() + 1) << grid.cell_w_log2) <= grid.width;
 }
@@ -91,9 +92,9 @@ class Tiles final : public Backend {
  private:
   bool draws_depth_only() const override { return true; }
   bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
-    const auto& [threads, size, target] = execution;
+    const auto& [threads, tile_size, target] = execution;
     const FrameView& frame = part.frame;
-    const int size_log2 = std::countr_zero(static_cast<unsigned>(size));
+    const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
     const CellGrid grid{frame.width, frame.height, size_log2, size_log2, part.x0, part.y0};
     if (!bins_.build(triangles, grid, threads, target, options_.coverage_masks)) return false;
     const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
@@ -119,7 +120,7 @@ class Tiles final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
                     const Execution& execution) override {
     StoredTriangles stored(triangles);
-    draw_source(stored, part, execution);  // always true: stored triangles are not copied
+    draw_source(stored, part, execution);  // always true: stored triangles need no room
   }
   bool is_streamed(bool if_automatic) const {
     return options_.tile_store == TileStore::automatic ? if_automatic

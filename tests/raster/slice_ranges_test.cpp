@@ -70,7 +70,7 @@ TEST(SliceRanges, GiveAnIdleWorkerHalfOfTheLongestRest) {
 
 TEST(SliceRanges, LeaveShortRestsWhole) {
   SliceRanges ranges;
-  for (const std::size_t least_rest : {401, 400}) {
+  for (const std::size_t least_rest : {401u, 400u}) {
     ranges.start(1000, 10, 2, 3, least_rest);
     while (ranges.next(1)) continue;
     for (int i = 0; i < 10; ++i) ranges.next(0);  // 40 pieces are left

@@ -104,11 +104,11 @@ void for_each_packet(std::span<const ScreenTriangle> triangles, Call&& call) {
 
 }  // namespace
 
-// Bins a packet in order of submission: consecutive masked and consecutive boxed triangles, in turn. `begin`:
-// index of its first triangle, ignored if triangles are kept.
+// Bins a packet. Runs of masked triangles and runs of boxed ones take turns, in order of submission, so that
+// masks get their ranks. `begin`: index of its first triangle, ignored if triangles are kept.
 void Bins::Slice::bin_packet(const ScreenTriangle* packet, const SortedPacket& sorted, std::size_t begin,
                              const CellGrid& grid) {
-  std::size_t n = 0;
+  std::size_t n = 0;                                                                // masked triangles so far
   const auto below_lowest = [](std::uint64_t bits) { return (bits & -bits) - 1; };  // all, if none is set
   for (std::uint64_t boxed = sorted.boxed, masked = sorted.masked; (boxed | masked) != 0;) {
     const std::uint64_t next_masked = masked & below_lowest(boxed);
@@ -118,7 +118,7 @@ void Bins::Slice::bin_packet(const ScreenTriangle* packet, const SortedPacket& s
     masked ^= next_masked;
     const std::uint64_t next_boxed = boxed & below_lowest(masked);
     for (std::uint64_t left = next_boxed; left != 0; left &= left - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));  // in the packet
       std::size_t index = begin + k;
       if (kept != nullptr) {
         kept[next_kept] = packet[k];

@@ -71,7 +71,7 @@ HWY_INLINE hn::Mask<D> not_negative(V v) {
 }
 
 // Depth-tests a vector of a block's pixels and writes those that are covered and nearer.
-HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
+HWY_INLINE void depth_test(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
   const auto wins = hn::And(covered, hn::Lt(z, hn::Load(D{}, tile.depth() + at)));
   replace(tile.depth() + at, wins, z);
   replace(tile.payload() + at, wins, payload);
@@ -151,9 +151,9 @@ class SmallTriangles {
                              numbers.load_values(values.in_block + slot * kBlockPixels + p * kLanes));
         };
         const auto edge = [&](int i) { return value(Numbers{}, edge_[i]); };
-        write(tile_, block * kBlockPixels + p * kLanes,
-              not_negative(Numbers::any_negative(edge(0), edge(1), edge(2))), value(Int32Numbers{}, depth_),
-              hn::Set(D{}, payload_[slot]));
+        depth_test(tile_, block * kBlockPixels + p * kLanes,
+                   not_negative(Numbers::any_negative(edge(0), edge(1), edge(2))),
+                   value(Int32Numbers{}, depth_), hn::Set(D{}, payload_[slot]));
       }
     }
     used_ = list_.length = 0;

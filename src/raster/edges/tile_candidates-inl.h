@@ -131,9 +131,9 @@ void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& 
       const V depth = hn::Set(d, depth_at[n]);
       for (int p = 0; p < kVectors; ++p) {
         const auto value = [&](int i) { return Numbers::add(edge[i], edge_in[i].v[p]); };
-        write(tile, block * kBlockPixels + p * kLanes,
-              not_negative(Numbers::any_negative(value(0), value(1), value(2))),
-              hn::Add(depth, depth_in.v[p]), payload);
+        depth_test(tile, block * kBlockPixels + p * kLanes,
+                   not_negative(Numbers::any_negative(value(0), value(1), value(2))),
+                   hn::Add(depth, depth_in.v[p]), payload);
       }
     }
   }

@@ -14,7 +14,7 @@
 //    test.
 // 5. Candidate blocks go into lists, which are drawn in submission order (tile_painter-inl.h).
 // 6. Small triangles arrive as coverage masks, made by binning (packet_sorter.cpp), and are drawn without a
-//    branch (tile_blocks-inl.h).
+//    branch (tile_painter-inl.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/edges/tile_edges.cpp"
 #include <hwy/foreach_target.h>

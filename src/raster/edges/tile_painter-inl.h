@@ -57,8 +57,8 @@ inline std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks, s
       V z = hn::Add(z0, hn::Add(hn::Mul(hn::Load(d, kLaneX + p), zx), hn::Mul(hn::Load(d, kLaneY + p), zy)));
       int at = static_cast<int>(mask.block) * kBlockPixels + p;
       for (int y = 0; y < 2; ++y) {
-        write(tile, at, hn::TestBit(rows[y], left_bits), z, payload);
-        write(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right), payload);
+        depth_test(tile, at, hn::TestBit(rows[y], left_bits), z, payload);
+        depth_test(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right), payload);
         z = hn::Add(z, down);
         at += kMaxBlocks * kBlockPixels;
       }
@@ -163,6 +163,7 @@ class TilePainter {
 template <class Numbers>
 void draw_tile_in(const TileTask& task) {
   Tile tile;
+  // Without a clear, pixels that are not read from the frame have depth 0, which nothing is nearer than.
   for (int y = 0; y < task.size(); y += kBlockSide)
     for (int i = 0; i < task.size() * kBlockSide; i += kLanes)
       hn::Store(hn::Set(D{}, wrap(task.part.clear ? kDepthClear : 0)), D{}, tile.depth() + y * kMaxTile + i);
