@@ -1,5 +1,5 @@
-// What the fills share: the tasks of the kernels that draw the triangles of a cell, in the frame itself or in
-// a tile's buffer; and the counts of what they drew.
+// Tasks of the kernels that draw a cell's triangles in the frame itself or in a tile's buffer, and counts of
+// what they drew.
 #pragma once
 
 #include <algorithm>

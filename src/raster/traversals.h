@@ -20,8 +20,8 @@ std::unique_ptr<Backend> make_bands(FrameKernel (*fill)(SimdTarget));
 // frame's old content and leave the caches to the triangles.
 enum class TileStore {
   cached,
-  streaming,
-  automatic  // raster/policy.h; `streaming` leaves no tile light
+  streaming,  // leaves no tile light
+  automatic   // raster/policy.h
 };
 
 // What drawing in tiles can leave out or choose, for compositions, measurements and tests. No option changes

@@ -132,8 +132,8 @@ void Bins::Slice::bin_packet(const ScreenTriangle* packet, const SortedPacket& s
 
 namespace {
 
-// How many slices there are at first and at most, the inputs that a worker takes of one at once, and those
-// that a slice must have left to be split.
+// How many slices there are at first and at most, the inputs that a worker takes of one at once, and the
+// fewest that a slice must have left to be split.
 struct Slicing {
   std::size_t first, most, at_once, least_rest;
 };
@@ -143,21 +143,22 @@ Slicing slicing_of(std::size_t inputs, std::size_t cells, std::size_t threads) {
   constexpr std::size_t kMinSlice = 500;
   // List heads of all slices: 128 MB, or 384 MB with masks.
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;
-  // Each further list of a cell costs a lookup and a partly filled segment: with splits of all rests, medium
-  // takes 1.06 times as long on two threads.
-  constexpr std::size_t kSlicesPerThread = 4, kLeastRestPerCell = 8;
+  // Each further list of a cell costs a lookup and a partly filled segment: if all rests are split, medium
+  // is drawn 1.06× slower (two threads, Zen 4). The more threads share that cost, the shorter the rests
+  // that are worth it.
+  constexpr std::size_t kSlicesPerThread = 4, kLeastRestPerCell = 16;
   // Short enough to balance the slices.
   constexpr std::size_t kLongest = TriangleSource::kInputsAtOnce, kShortest = 4 * kPacket;
   const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
   const std::size_t first = std::clamp<std::size_t>(inputs / kMinSlice, 1, std::min(threads, affordable));
-  if (first == 1) return {1, 1, kLongest, inputs};
+  if (first == 1) return {1, 1, kLongest, 0};
   return {first, std::min(first * kSlicesPerThread, affordable),
           std::clamp(inputs / (16 * first) / kPacket * kPacket, kShortest, kLongest),
-          kLeastRestPerCell * cells};
+          kLeastRestPerCell * cells / first};
 }
 
-// A slice claims room for so many kept triangles at once. Less than a packet of it stays empty, but for the
-// last.
+// A slice claims room for so many kept triangles at once. Of each claim but the last, less than a
+// packet stays empty.
 constexpr std::size_t kKeptAtOnce = 8192;
 
 }  // namespace
@@ -218,7 +219,8 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
   triangles_ = stored ? source.stored() : kept_.data();
   Work work{source, grid, packet_sorter(target), with_masks, stored, slicing};
   parallel_for(threads, static_cast<int>(slicing.first), [&](int worker) {
-    for (std::optional slice{static_cast<std::size_t>(worker)}; slice; slice = ranges_.split())
+    for (std::optional slice{static_cast<std::size_t>(worker)}; slice && work.all_fit;
+         slice = ranges_.split())
       bin_slice(work, worker, *slice);
   });
   if (!work.all_fit) {

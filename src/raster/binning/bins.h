@@ -32,8 +32,8 @@ class Bins {
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. `with_masks` needs cells that are tiles, and makes no masks on
   // the scalar target. Throws std::length_error if a slice's lists exceed 2^32 entries, and what
-  // TriangleSource::finish() throws. Returns false, with incomplete contents, if clipping more than doubled
-  // the triangles of a source for the first time. Later sources get the room.
+  // TriangleSource::finish() throws. Returns false, with incomplete contents, if there was no room for the
+  // kept triangles: about twice the inputs until this happened once, then always enough.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            bool with_masks);
 
@@ -82,7 +82,7 @@ class Bins {
   }
 
   // The same. Records are scattered in memory, so each segment's are prefetched while the previous segment is
-  // visited: without it, small triangles take 1.1 to 1.7 times as long.
+  // visited: without it, small triangles are drawn 1.1× to 1.7× slower.
   template <typename Visit>
   void for_each_segment_ahead(int cell, Visit&& visit) const {
     Segment before{};
@@ -177,7 +177,7 @@ class Bins {
   SliceRanges ranges_;
   std::vector<const Slice*> in_order_;
   Buffer<ScreenTriangle> kept_;
-  std::size_t kept_per_input_ = 2;  // that there is room for
+  std::size_t kept_per_input_ = 2;  // room for kept triangles
   const ScreenTriangle* triangles_ = nullptr;
   bool has_masks_ = false;
 };

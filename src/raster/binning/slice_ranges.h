@@ -1,5 +1,5 @@
 // Cuts inputs into consecutive slices that workers make and bin at the same time. A worker that has finished
-// its slice splits another one, so that all end at about the same time, whatever the work per input.
+// its slice splits another one, so that all end at about the same time, unless the rests are short.
 #pragma once
 
 #include <atomic>

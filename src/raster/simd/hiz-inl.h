@@ -38,14 +38,14 @@ class HiZ {
     std::fill(std::begin(zmax_), std::end(zmax_), static_cast<std::int32_t>(contract::kDepthClear));
     for (int row = 0; row < rows; ++row) std::fill(at(columns, row), at(0, row + 1), 0);
     std::fill(at(0, rows), at(0, kRows), 0);
-    farthest_block_ = 0;
+    greatest_block_ = 0;
   }
   // zmax of a block. At least a whole row of entries may be read and written from there.
   HWY_INLINE std::int32_t* at(int column, int row) { return zmax_ + row * kColumns + column; }
 
   // Whether a triangle with no depth below `nearest` is occluded in all blocks.
   HWY_INLINE bool occludes(std::int32_t nearest) {
-    return nearest >= zmax_[farthest_block_] && !any_zmax_behind(nearest);
+    return nearest >= zmax_[greatest_block_] && !any_zmax_behind(nearest);
   }
 
  private:
@@ -56,23 +56,23 @@ class HiZ {
   // Whether the zmax of a block exceeds `nearest`. If so, stores the block with the largest zmax.
   bool any_zmax_behind(std::int32_t nearest) {
     const D d;
-    V farthest = hn::Load(d, zmax_), begin = hn::Zero(d);
+    V greatest = hn::Load(d, zmax_), begin = hn::Zero(d);
     for (int i = kLanes; i < kBlocks; i += kLanes) {
       const V here = hn::Load(d, zmax_ + i);
-      begin = hn::IfThenElse(hn::Lt(farthest, here), hn::Set(d, i), begin);
-      farthest = hn::Max(farthest, here);
+      begin = hn::IfThenElse(hn::Lt(greatest, here), hn::Set(d, i), begin);
+      greatest = hn::Max(greatest, here);
     }
-    const V max_zmax = hn::MaxOfLanes(d, farthest);
+    const V max_zmax = hn::MaxOfLanes(d, greatest);
     if (nearest >= hn::GetLane(max_zmax)) return false;
-    const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(farthest, max_zmax)));
+    const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Eq(greatest, max_zmax)));
     alignas(64) std::int32_t begins[kLanes];
     hn::Store(begin, d, begins);
-    farthest_block_ = begins[lane] + static_cast<int>(lane);
+    greatest_block_ = begins[lane] + static_cast<int>(lane);
     return true;
   }
 
   alignas(64) std::int32_t zmax_[kCapacity];
-  int farthest_block_;  // had the largest zmax at the last search: decides most calls of occludes()
+  int greatest_block_;  // had the largest zmax at the last search: decides most calls of occludes()
 };
 
 }  // namespace HWY_NAMESPACE

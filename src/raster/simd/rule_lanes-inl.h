@@ -30,7 +30,7 @@ HWY_INLINE V max_of(const V (&v)[3]) {
 HWY_INLINE V flipped(V v, V flip) {
   return hn::Sub(hn::Xor(v, flip), flip);
 }
-// The samples of pixels that are counted from pixel `first`, sub-units.
+// Sample positions, in sub-units, of pixels that are numbered from pixel `first` on.
 HWY_INLINE V sample(V px, int first = 0) {
   return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(D{}, sample_sub(first)));
 }
