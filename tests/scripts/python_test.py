@@ -55,7 +55,7 @@ for use in (lambda: __import__("edgewise.lab"), lambda: edgewise.Scene().needs([
 """
 
 python = interpreter()
-environment = {**os.environ, "EDGEWISE_BUILD": str(FOLDER / "build"), "EDGEWISE_PROGRAM": str(BUILD / "edgewise"),
+environment = {**os.environ, "EDGEWISE_BUILD": str(FOLDER / "wheel"), "EDGEWISE_PROGRAM": str(BUILD / "edgewise"),
                "PYTHONDONTWRITEBYTECODE": "1"}
 venv = FOLDER / "venv"
 before = files()
@@ -81,7 +81,8 @@ if written := files() - before:
 (archive,) = archives.iterdir()
 with tarfile.open(archive) as packed:
     packed.extractall(archives)
-unpacked = archives / archive.name.removesuffix(".tar.gz")
+# CMake's cache in EDGEWISE_BUILD holds the path, which therefore names no version.
+unpacked = (archives / archive.name.removesuffix(".tar.gz")).rename(archives / "unpacked")
 if "MIT" not in (unpacked / "PKG-INFO").read_text():
     sys.exit("the archive does not name its licence")
 install(unpacked, False, "--no-deps", "--target", without_lab)
