@@ -37,7 +37,7 @@ TEST(SliceRanges, HoldEachInputOnceWhateverIsSplitWhen) {
     for (std::uint64_t seed = 1; seed < 20; ++seed) {
       Random random(seed);
       Taken taken(most);
-      ranges.start(count, at_once, first, most, 0);
+      ranges.start(count, {first, most, at_once, 0});
       std::vector<std::size_t> open;
       for (std::size_t i = 0; i < first; ++i) open.push_back(i);
       while (!open.empty()) {
@@ -57,7 +57,7 @@ TEST(SliceRanges, HoldEachInputOnceWhateverIsSplitWhen) {
 
 TEST(SliceRanges, GiveAnIdleWorkerHalfOfTheLongestRest) {
   SliceRanges ranges;
-  ranges.start(1000, 10, 2, 3, 0);
+  ranges.start(1000, {2, 3, 10, 0});
   while (ranges.next(1)) continue;
   for (int i = 0; i < 10; ++i) ranges.next(0);  // 40 are left
   const auto slice = ranges.split();
@@ -71,7 +71,7 @@ TEST(SliceRanges, GiveAnIdleWorkerHalfOfTheLongestRest) {
 TEST(SliceRanges, LeaveShortRestsWhole) {
   SliceRanges ranges;
   for (const std::size_t least_rest : {401u, 400u}) {
-    ranges.start(1000, 10, 2, 3, least_rest);
+    ranges.start(1000, {2, 3, 10, least_rest});
     while (ranges.next(1)) continue;
     for (int i = 0; i < 10; ++i) ranges.next(0);  // 40 pieces are left
     EXPECT_EQ(ranges.split().has_value(), least_rest == 400);
@@ -83,7 +83,7 @@ TEST(SliceRanges, HoldEachInputOnceOnSeveralThreads) {
   constexpr std::size_t kCount = 50'000, kThreads = 4, kMost = 16;
   for (int round = 0; round < 20; ++round) {
     Taken taken(kMost);
-    ranges.start(kCount, 64, kThreads, kMost, 0);
+    ranges.start(kCount, {kThreads, kMost, 64, 0});
     parallel_for(kThreads, kThreads, [&](int worker) {
       for (std::optional slice{static_cast<std::size_t>(worker)}; slice; slice = ranges.split())
         while (const auto inputs = ranges.next(*slice)) taken[*slice].push_back({inputs->begin, inputs->end});

@@ -132,12 +132,7 @@ void Bins::Slice::bin_packet(const ScreenTriangle* packet, const SortedPacket& s
 
 namespace {
 
-// How many slices there are at first and at most, the inputs that a worker takes of one at once, and the
-// fewest that a slice must have left to be split.
-struct Slicing {
-  std::size_t first, most, at_once, least_rest;
-};
-Slicing slicing_of(std::size_t inputs, std::size_t cells, std::size_t threads) {
+SliceRanges::Slicing slicing_of(std::size_t inputs, std::size_t cells, std::size_t threads) {
   // Triangles per slice: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
   // tile kernel empty.
   constexpr std::size_t kMinSlice = 500;
@@ -168,7 +163,7 @@ struct Bins::Work {
   const CellGrid& grid;
   const PacketSorter sort;
   const bool with_masks, stored;  // stored: not made, so not kept either
-  const Slicing slicing;
+  const SliceRanges::Slicing slicing;
   std::atomic<std::size_t> next_kept{0};  // the first free place in kept_
   std::atomic<bool> all_fit{true};
 };
@@ -209,10 +204,10 @@ void Bins::bin_slice(Work& work, int worker, std::size_t index) {
 bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                  bool with_masks) {
   const std::size_t count = source.size();
-  const Slicing slicing =
+  const auto slicing =
       slicing_of(count, static_cast<std::size_t>(grid.cells()), static_cast<std::size_t>(threads));
   if (slices_.size() < slicing.most) slices_.resize(slicing.most);
-  ranges_.start(count, slicing.at_once, slicing.first, slicing.most, slicing.least_rest);
+  ranges_.start(count, slicing);
   const bool stored = source.stored() != nullptr || count == 0;
   // The memory is not touched before it is used.
   if (!stored) kept_.reserve(kept_per_input_ * count + slicing.most * kKeptAtOnce);

@@ -21,11 +21,10 @@ void SliceRanges::use(std::size_t slice, std::size_t begin, std::size_t end) {
   slices_[slice].left.store(Pieces(begin, end).bits(), std::memory_order_relaxed);
 }
 
-void SliceRanges::start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most,
-                        std::size_t least_rest) {
+void SliceRanges::start(std::size_t count, const Slicing& slicing) {
+  const std::size_t first = slicing.first, most = slicing.most, at_once = slicing.at_once;
   if (slices_.size() < most) slices_ = std::vector<Slice>(most);
-  count_ = count, at_once_ = at_once, most_ = most, next_ = first;
-  least_rest_ = std::max(least_rest, 2 * at_once);
+  count_ = count, slicing_ = slicing, next_ = first;
   const std::size_t pieces = (count + at_once - 1) / at_once;
   for (Slice& slice : slices_) slice.left = 0, slice.used = false;
   for (std::size_t i = 0; i < first; ++i) use(i, pieces * i / first, pieces * (i + 1) / first);
@@ -38,21 +37,21 @@ std::optional<SliceRanges::Inputs> SliceRanges::next(std::size_t slice) {
     if (pieces.count() == 0) return std::nullopt;
     if (left.compare_exchange_weak(bits, Pieces(pieces.begin + 1, pieces.end).bits(),
                                    std::memory_order_relaxed))
-      return Inputs{pieces.begin * at_once_, std::min(count_, (pieces.begin + 1) * at_once_)};
+      return Inputs{pieces.begin * slicing_.at_once, std::min(count_, (pieces.begin + 1) * slicing_.at_once)};
   }
 }
 
 std::optional<std::size_t> SliceRanges::split() {
   const std::size_t slice = std::atomic_ref(next_).fetch_add(1, std::memory_order_relaxed);
-  while (slice < most_) {  // stays unused if there is nothing to take
+  while (slice < slicing_.most) {  // stays unused if there is nothing to take
     std::size_t longest = 0;
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < most_; ++i) {
+    for (std::size_t i = 0; i < slicing_.most; ++i) {
       const std::uint64_t left = slices_[i].left.load(std::memory_order_relaxed);
       if (Pieces(left).count() > Pieces(bits).count()) longest = i, bits = left;
     }
     const Pieces rest(bits);
-    if (rest.count() * at_once_ < least_rest_) break;
+    if (rest.count() < 2 || rest.count() * slicing_.at_once < slicing_.least_rest) break;
     const std::size_t middle = rest.end - rest.count() / 2;
     if (slices_[longest].left.compare_exchange_strong(bits, Pieces(rest.begin, middle).bits(),
                                                       std::memory_order_relaxed)) {

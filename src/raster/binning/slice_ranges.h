@@ -17,10 +17,14 @@ class SliceRanges {
     std::size_t begin, end;
   };
 
-  // Cuts `count` inputs into `first` slices of equal length. Splitting rests of at least `least_rest` inputs
-  // makes up to `most` slices. Both need less than 2^32 pieces of `at_once` inputs.
-  void start(std::size_t count, std::size_t at_once, std::size_t first, std::size_t most,
-             std::size_t least_rest);
+  struct Slicing {
+    std::size_t first, most;  // slices at first, of equal length, and after all splits
+    std::size_t at_once;      // inputs that a worker takes of a slice at once
+    std::size_t least_rest;   // the fewest inputs that a slice must have left to be split
+  };
+
+  // Cuts `count` inputs, less than 2^32 pieces of `at_once`.
+  void start(std::size_t count, const Slicing& slicing);
   // Takes the next inputs of a slice, up to `at_once`. Returns nothing at its end. A slice has one worker.
   std::optional<Inputs> next(std::size_t slice);
   // Makes a slice of the second half of the longest rest of a slice, and returns it. Returns nothing if all
@@ -41,7 +45,8 @@ class SliceRanges {
   std::vector<Slice> slices_;
   std::vector<std::size_t> order_;
   std::size_t next_ = 0;  // the next slice, if it is less than `most`; accessed atomically
-  std::size_t most_ = 0, count_ = 0, at_once_ = 1, least_rest_ = 0;
+  std::size_t count_ = 0;
+  Slicing slicing_{};
 };
 
 }  // namespace edgewise
