@@ -109,7 +109,7 @@ struct FrameBatch {
 template <typename Batch>
 HWY_INLINE void draw_in_batches(const FrameTask& task) {
   const ScreenTriangle* const triangles = task.bins.triangles();
-  task.bins.for_each_segment_ahead(task.cell, [&](const Bins::Segment& segment) {
+  task.bins.for_each_segment(task.cell, [&](const Bins::Segment& segment) {
     Batch batch;
     std::uint32_t left = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
       return batch.set_up(task, padded + k, k);

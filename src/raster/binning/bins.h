@@ -65,32 +65,26 @@ class Bins {
     std::uint32_t first_slot;
   };
 
-  // Calls visit(segment) for the segments of a cell, in submission order.
+  // Calls visit(segment) for the segments of a cell, in submission order. Records are scattered in memory, so
+  // each segment's are prefetched while the previous segment is visited: without it, small triangles are
+  // drawn 1.1× to 1.7× slower.
   template <typename Visit>
   void for_each_segment(int cell, Visit&& visit) const {
     const auto c = static_cast<std::size_t>(cell);
+    Segment before{};
     for (std::size_t i = 0; i < in_order_.size(); ++i) {
       const Slice& slice = *in_order_[i];
       for (std::uint32_t slot = slice.first[c]; slot != kNone;) {
         const std::uint32_t segment_end = slot + kIndicesPerSegment;
         const bool last = slice.cursor[c] <= segment_end && slice.cursor[c] > slot;
         const std::uint32_t end = last ? slice.cursor[c] : segment_end;
-        visit(Segment{{&slice.slots[slot], end - slot}, i, slot});
+        const Segment segment{{&slice.slots[slot], end - slot}, i, slot};
+        prefetch_records(segment.indices);
+        if (!before.indices.empty()) visit(before);
+        before = segment;
         slot = last ? kNone : slice.slots[segment_end];
       }
     }
-  }
-
-  // The same. Records are scattered in memory, so each segment's are prefetched while the previous segment is
-  // visited: without it, small triangles are drawn 1.1× to 1.7× slower.
-  template <typename Visit>
-  void for_each_segment_ahead(int cell, Visit&& visit) const {
-    Segment before{};
-    for_each_segment(cell, [&](const Segment& segment) {
-      prefetch_records(segment.indices);
-      if (!before.indices.empty()) visit(before);
-      before = segment;
-    });
     if (!before.indices.empty()) visit(before);
   }
 

@@ -172,8 +172,8 @@ void draw_tile_in(const TileTask& task) {
   tile.hiz.clear(task.width(), task.height());
 
   TilePainter<Numbers> painter(task, tile);
-  task.bins->for_each_segment_ahead(task.cell,
-                                    [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
+  task.bins->for_each_segment(task.cell,
+                              [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
   painter.draw_rest();
   write_tile(task, tile.depth(), tile.payload(),
              [](const FramePlane& to, const auto& pixels) { write_blocks(to, pixels); });

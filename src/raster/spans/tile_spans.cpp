@@ -128,7 +128,7 @@ void write_rows(const FramePlane& to, const Pixels& pixels) {
 
 void draw_spans_in_tile(const TileTask& task) {
   SpanPainter painter(task);
-  task.bins->for_each_segment_ahead(task.cell, [&](const Bins::Segment& segment) { painter.draw(segment); });
+  task.bins->for_each_segment(task.cell, [&](const Bins::Segment& segment) { painter.draw(segment); });
   painter.draw_rest();
   write_tile(task, painter.depth(), painter.payload(),
              [](const FramePlane& to, const auto& pixels) { write_rows(to, pixels); });
