@@ -133,14 +133,14 @@ void Bins::Slice::bin_packet(const ScreenTriangle* packet, const SortedPacket& s
 namespace {
 
 SliceRanges::Slicing slicing_of(std::size_t inputs, std::size_t cells, std::size_t threads) {
-  // Triangles per slice: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
-  // tile kernel empty.
+  // Triangles per slice: a thousand large ones are worth two threads (with 2000 here, large is drawn 1.25×
+  // slower), but short lists leave SIMD lanes of the tile kernel empty.
   constexpr std::size_t kMinSlice = 500;
   // List heads of all slices: 128 MB, or 384 MB with masks.
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;
-  // Each further list of a cell costs a lookup and a partly filled segment: if all rests are split, medium
-  // is drawn 1.06× slower (two threads, Zen 4). The more threads share that cost, the shorter the rests
-  // that are worth it.
+  // On two threads, terrain is drawn 1.35× slower without splits. But each further list of a cell costs a
+  // lookup and a partly filled segment: if all rests are split, medium is drawn 1.06× slower. The more
+  // threads share that cost, the shorter the rests that are worth it.
   constexpr std::size_t kSlicesPerThread = 4, kLeastRestPerCell = 16;
   // Short enough to balance the slices.
   constexpr std::size_t kLongest = TriangleSource::kInputsAtOnce, kShortest = 4 * kPacket;
