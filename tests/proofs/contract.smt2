@@ -18,22 +18,22 @@
 (define-const kGuard_q15 Int 536870912)    ; = kGuard_q15 of src/edgewise/contract.h
 (define-const kMaxImageSide Int 16384)     ; = kMaxImageSide of src/edgewise/contract.h
 (define-const kMaxEdge_q30 Int 2305843009213693952) ; = kMaxEdge_q30 of src/edgewise/contract.h
-(define-const kPlaneBits Int 31)           ; = kPlaneBits of src/edgewise/contract.h
 (define-const kMaxTile Int 64)             ; = kMaxTile of src/edgewise/contract.h
+(define-const kPlaneBits Int 31)           ; = kPlaneBits of src/edgewise/contract.h
 (define-const kDepthCell Int 64)           ; = kDepthCell of src/edgewise/contract.h
 (define-const kDepthHead Int 128)          ; = kDepthHead of src/edgewise/contract.h
 (define-const kDepthClear Int 2147483647)  ; = kDepthClear of src/edgewise/contract.h
 (define-const kDepthRange Int 2147483388)  ; = kDepthRange of src/edgewise/contract.h
 (define-const kDepthError Int 34)          ; = kDepthError of src/edgewise/contract.h
 
-(define-const two8 Int 256)
+(define-const two14 Int 16384)
+(define-const two15 Int 32768)
 (define-const two16 Int 65536)
-(define-const two24 Int 16777216)
+(define-const two20 Int 1048576)
+(define-const two30 Int 1073741824)
 (define-const two31 Int 2147483648)
 (define-const two32 Int 4294967296)
-(define-const two46 Int 70368744177664)
 (define-const two53 Int 9007199254740992)
-(define-const two54 Int 18014398509481984)
 (define-const two60 Int 1152921504606846976)
 (define-const two61 Int 2305843009213693952)
 (define-const two63 Int 9223372036854775808)
@@ -49,7 +49,7 @@
 (define-fun minr ((u Real) (v Real)) Real (ite (< u v) u v))
 (define-fun absr ((v Real)) Real (ite (< v 0.0) (- v) v))
 
-; Rules 1 and 3. A coordinate or a sample of an image, in 2^-15 px.
+; Rules 1 and 3. A coordinate or a sample of an image, in units of 2^-15 px.
 (define-fun sample_q15 ((pixel Int)) Int (+ (* kPixel_q15 pixel) kHalf_q15))
 (define-fun in_guard ((v Real)) Bool (between (- (to_real kGuard_q15)) v (to_real kGuard_q15)))
 (define-fun pixel_in_image ((p Int)) Bool (and (<= 0 p) (< p kMaxImageSide)))
@@ -76,6 +76,6 @@
 (define-fun gradient ((n Int) (area Int)) Int (div (* two31 n) area))
 (define-fun depth_step ((g Int)) Int (div (+ g 32768) two16))
 (define-fun depth_middle ((z Int) (gx Int) (gy Int) (dx Int) (dy Int)) Int
-  (div (+ (* two31 z) 1073741824 (* gx dx) (* gy dy)) two31))
+  (div (+ (* two31 z) two30 (* gx dx) (* gy dy)) two31))
 (define-fun depth_at ((z Int) (gx Int) (gy Int) (dx Int) (dy Int) (x Int) (y Int)) Int
   (+ (depth_middle z gx gy dx dy) (* (- x 32) (depth_step gx)) (* (- y 32) (depth_step gy))))

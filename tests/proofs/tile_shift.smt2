@@ -1,7 +1,7 @@
-; Rule 5: a tile steps the biased edge value, shifted right by 8, in 32 bits. Theories: linear integer arithmetic for
+; Rule 5: a tile steps the biased edge value, shifted right by 15 (on the coarse grid, by 8), in 32 bits. Theories: linear integer arithmetic for
 ; the shift; nonlinear real arithmetic for the width.
 
-;; claim steps_commute: Shifting and stepping commute: floor((E + 256 k) / 256) = floor(E / 256) + k.
+;; claim steps_commute: Shifting and stepping commute: floor((E + 2^15 k) / 2^15) = floor(E / 2^15) + k.
 (declare-const e Int) (declare-const k Int)
 (assert (not (= (div (+ e (* kPixel_q15 k)) kPixel_q15) (+ (div e kPixel_q15) k))))
 
