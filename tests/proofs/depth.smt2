@@ -105,8 +105,8 @@
 (assert (and (<= 0.0 gap) (< gap 1.0) (between (- 1073741825.0) d 1073741825.0)))
 (assert (not (< (absr (* gap d)) 1073741824.0)))
 
-;; claim middle_error: The depth at the middle sample is off by less than 3/2. s = gx dx + gy dy is the computed sum; off_x
-;;   and off_y are the shifts due to the gradients' rounding; the plane is exact, in units of 2^-31.
+;; claim middle_error: The depth at the middle sample is off by less than 3/2. s = gx dx + gy dy is the computed sum;
+;;   off_x and off_y are the shifts due to the gradients' rounding; the plane is exact, in units of 2^-31.
 (declare-const z Int) (declare-const s Int) (declare-const off_x Real) (declare-const off_y Real)
 (assert (and (< (absr off_x) 1073741824.0) (< (absr off_y) 1073741824.0)))
 (define-fun middle () Int (div (+ (* two31 z) 1073741824 s) two31))

@@ -7,8 +7,8 @@
 
 (define-fun ulp ((e Real)) Bool (between (- (/ 1.0 9007199254740992.0)) e (/ 1.0 9007199254740992.0)))
 
-;; claim plain_estimate: In contract::gradient(), with three roundings (n and area to double, the quotient), an
-;;   estimate below 2^51 is off by less than 0.76, and by less than 1.76 when truncated to an integer. So at most two corrections
+;; claim plain_estimate: In contract::gradient(), with three roundings (n and area to double, the quotient), an estimate
+;;   below 2^51 is off by less than 0.76, and by less than 1.76 when truncated to an integer. So at most two corrections
 ;;   follow.
 (declare-const true_q Real) (declare-const e1 Real) (declare-const e2 Real) (declare-const e3 Real)
 (declare-const q Real) (declare-const cut Real)

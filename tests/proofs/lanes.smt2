@@ -58,8 +58,8 @@
 (assert (or (= f (_ bv0 64)) (= f (_ bv1 64))))
 (assert (not (= (bvsub (bvxor v f) f) (ite (= f (_ bv0 64)) v (bvneg v)))))
 
-;; claim logical_shift: The lower halves of a logical and an arithmetic shift right by up to 15 are equal, so edge values may
-;;   be shifted as unsigned numbers.
+;; claim logical_shift: The lower halves of a logical and an arithmetic shift right by up to 15 are equal, so edge
+;;   values may be shifted as unsigned numbers.
 (declare-const v (_ BitVec 64)) (declare-const n (_ BitVec 64))
 (assert (bvule n (_ bv15 64)))
 (assert (not (= ((_ extract 31 0) (bvlshr v n)) ((_ extract 31 0) (bvashr v n)))))
@@ -68,8 +68,8 @@
 (declare-const v (_ BitVec 64))
 (assert (not (= ((_ extract 31 0) (bvlshr v (_ bv33 64))) ((_ extract 31 0) (bvashr v (_ bv33 64))))))
 
-;; claim edge_products: In the set-up for a tile, every factor fits 32 bits and every sum stays below 2^62: the first edge
-;;   value, its rise to the last pixel of a box in the tile, and the sum of both.
+;; claim edge_products: In the set-up for a tile, every factor fits 32 bits and every sum stays below 2^62: the first
+;;   edge value, its rise to the last pixel of a box in the tile, and the sum of both.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
 (declare-const sx Real) (declare-const sy Real) (declare-const last_x Real) (declare-const last_y Real)
 (assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard sx) (in_guard sy)))

@@ -69,8 +69,8 @@
 (assert (and (<= (* unit (to_real p)) w) (< w (* unit (to_real (+ p 1))))))
 (assert (not (= n (ite (>= (to_real p) v) p (+ p 1)))))
 
-;; claim side_of_sample: The sample s of a pixel is not left of an edge's crossing with its row, at x, exactly if an edge
-;;   that goes up, on the triangle's left, owns the sample, or if one that goes down, on its right, does not.
+;; claim side_of_sample: The sample s of a pixel is not left of an edge's crossing with its row, at x, exactly if an
+;;   edge that goes up, on the triangle's left, owns the sample, or if one that goes down, on its right, does not.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
 (declare-const sx Real) (declare-const sy Real) (declare-const x Real)
 (assert (not (= py qy)))
@@ -84,8 +84,8 @@
 (assert (= (* (- x px) (- qy py)) (* (- sy py) (- qx px))))
 (assert (not (= (> sx x) (ite (> py qy) (owns px py qx qy sx sy) (not (owns px py qx qy sx sy))))))
 
-;; claim side_fits: A shifted edge value (rule 5) at a sample of the image, stepped to any pixel where a line may be (within
-;;   2^20 px), fits 64 bits.
+;; claim side_fits: A shifted edge value (rule 5) at a sample of the image, stepped to any pixel where a line may be
+;;   (within 2^20 px), fits 64 bits.
 (declare-const value Real) (declare-const a Real) (declare-const pixels Real)
 (assert (between (- (to_real kMaxEdge_q30)) (* 32768.0 value) (to_real kMaxEdge_q30)))
 (assert (and (between (- (to_real two30)) a (to_real two30)) (between (- 1048576.0) pixels 1048576.0)))

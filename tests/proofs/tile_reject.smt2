@@ -1,6 +1,6 @@
-; Acceptance and rejection of cells, tiles and blocks (bins.cpp, tile_setup-inl.h, tile_candidates-inl.h, hiz-inl.h): none
-; with a covered pixel is rejected, none with a pixel outside is accepted. Theories: nonlinear real arithmetic; linear
-; integer arithmetic for shifted values.
+; Acceptance and rejection of cells, tiles and blocks (bins.cpp, tile_setup-inl.h, tile_candidates-inl.h, hiz-inl.h):
+; none with a covered pixel is rejected, none with a pixel outside is accepted. Theories: nonlinear real arithmetic;
+; linear integer arithmetic for shifted values.
 ;
 ; f + x a + y b is an edge value or a depth at pixel (x, y) of a box, counted from its first pixel; (last_x, last_y)
 ; is the last.
