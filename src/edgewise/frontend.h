@@ -52,14 +52,14 @@ inline constexpr int kMinSubpixelBits = 4, kMaxSubpixelBits = 15;
 
 struct FrontendOptions {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide
-  // x and y of vertices are rounded to 2^-subpixel_bits px (rule 2): kMinSubpixelBits … kMaxSubpixelBits.
-  int subpixel_bits = 8;
-  Cull cull = Cull::back;  // the front is clockwise on the y-down screen
-  bool shade = true;       // scenes only: multiplies each colour by max(n·l, 0.15)
+  Cull cull = Cull::back;           // the front is clockwise on the y-down screen
+  bool shade = true;                // scenes only: multiplies each colour by max(n·l, 0.15)
   Payload payload = Payload::colour;
   // The id of the first triangle. A draw over others sets it to the number of triangles that they submitted:
   // then two draws equal one of both, ids included.
   std::uint32_t first_id = 0;
+  // x and y of vertices are rounded to 2^-subpixel_bits px (rule 2): kMinSubpixelBits … kMaxSubpixelBits.
+  int subpixel_bits = 8;
   // For measurements: keeps each triangle's vertices as they were before snapping, and does not drop
   // triangles that snapping leaves without area. Slower.
   bool keep_unsnapped = false;
