@@ -303,6 +303,8 @@ TEST(Frontend, RefusesInvalidInput) {
   };
   expect_refused([](Scene&, FrontendOptions& o) { o.width = 0; });
   expect_refused([](Scene&, FrontendOptions& o) { o.height = 16385; });
+  expect_refused([](Scene&, FrontendOptions& o) { o.subpixel_bits = kMinSubpixelBits - 1; });
+  expect_refused([](Scene&, FrontendOptions& o) { o.subpixel_bits = kMaxSubpixelBits + 1; });
   expect_refused([](Scene& s, FrontendOptions&) { s.camera.fov_y = 0.0f; });
   expect_refused([](Scene& s, FrontendOptions&) { s.camera.near_z = 0.0f; });
   expect_refused([](Scene& s, FrontendOptions&) { s.camera.far_z = s.camera.near_z; });
