@@ -56,10 +56,20 @@ inline std::vector<lab::DrawOptions> executions() {
   return list;
 }
 
-// From 1/256 px, the grid of 8 subpixel bits.
-inline ScreenTriangle coarse(ScreenTriangle t) {
-  for (int i = 0; i < 3; ++i) t.x_q15[i] *= 1 << Coarse::kSpareBits, t.y_q15[i] *= 1 << Coarse::kSpareBits;
+// Positions in sub-units of a grid.
+template <class G>
+ScreenTriangle on_grid(ScreenTriangle t) {
+  for (int i = 0; i < 3; ++i) t.x_q15[i] *= 1 << G::kSpareBits, t.y_q15[i] *= 1 << G::kSpareBits;
   return t;
+}
+inline ScreenTriangle coarse(const ScreenTriangle& t) {
+  return on_grid<Coarse>(t);
+}
+// Calls check(grid) for both grids.
+template <typename Check>
+void for_each_grid(Check&& check) {
+  check(Coarse{});
+  check(Fine{});
 }
 
 inline std::int32_t between(Random& random, std::int32_t low, std::int32_t high) {

@@ -28,13 +28,22 @@ TEST_P(EveryBackend, MatchesTheOracleForEveryFamily) {
                     std::string(family));
 }
 
+TEST_P(EveryBackend, MatchesTheOracleForEveryNumberOfSubpixelBits) {
+  std::uint64_t seed = 0;
+  for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits)
+    for (const auto family : testing::kFamilies)
+      expect_oracle(adversarial(family, 60, 97, 71, ++seed, bits), 97, 71,
+                    std::string(family) + ", " + std::to_string(bits) + " bits");
+}
+
 TEST_P(EveryBackend, MatchesTheOracleAtEverySize) {
   constexpr int kSizes[][2] = {{1, 1},   {1, 64},  {64, 1},  {3, 5},    {16, 16},
                                {17, 15}, {63, 65}, {64, 64}, {129, 33}, {200, 130}};
   for (const auto& [width, height] : kSizes)
     for (const auto family : {"uniform", "huge", "cloud"})
-      expect_oracle(adversarial(family, 40, width, height, 15), width, height,
-                    std::to_string(width) + "x" + std::to_string(height));
+      for (const int bits : {8, 15})
+        expect_oracle(adversarial(family, 40, width, height, 15, bits), width, height,
+                      std::to_string(width) + "x" + std::to_string(height));
 }
 
 TEST_P(EveryBackend, MatchesTheOracleForManySlices) {
@@ -85,7 +94,8 @@ TEST_P(EveryBackend, MatchesTheOracleWhenMasksExceedTheirMemory) {
 
 TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
   for (const auto& [width, height] : {std::pair{kMaxImageSide, 3}, {3, kMaxImageSide}})
-    expect_oracle(adversarial("uniform", 6, width, height, 2), width, height, "largest side");
+    for (const int bits : {8, 15})
+      expect_oracle(adversarial("uniform", 6, width, height, 2, bits), width, height, "largest side");
 }
 
 // Small and large triangles may be in different lists, whose segments fill up at different triangles.

@@ -60,10 +60,11 @@ TEST(Compositions, DrawTheSamePicturesOfHardTrianglesInRenderPasses) {
   const auto naive = find_backend("naive").make();
   const PixelRect scissors[] = {{}, {1, 2, 3, 35}, {37, 21, 50, 80}, {64, 32, 32, 33}, {-9, 63, 110, 1}};
   Random random(9);
-  for (const auto& [width, height] : {std::pair{97, 71}, {5, 40}, {200, 130}}) {
+  for (const auto& [width, height, bits] :
+       {std::tuple{97, 71, 8}, {97, 71, 15}, {5, 40, 8}, {5, 40, 12}, {200, 130, 8}, {200, 130, 15}}) {
     std::vector<ScreenTriangle> triangles;
     for (const auto family : testing::kFamilies) {
-      const auto some = testing::adversarial(family, 100, width, height, 8);
+      const auto some = testing::adversarial(family, 100, width, height, 8, bits);
       triangles.insert(triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2), some.begin(),
                        some.end());
     }
