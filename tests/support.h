@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/grid.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
@@ -53,6 +54,22 @@ inline std::vector<lab::DrawOptions> executions() {
   for (const auto target : supported_targets())
     for (const auto& tiles : lab::kTileOptions) list.push_back({{1, 64, target}, tiles});
   return list;
+}
+
+// Positions in sub-units of a grid.
+template <class G>
+ScreenTriangle on_grid(ScreenTriangle t) {
+  for (int i = 0; i < 3; ++i) t.x_q15[i] *= 1 << G::kSpareBits, t.y_q15[i] *= 1 << G::kSpareBits;
+  return t;
+}
+inline ScreenTriangle coarse(const ScreenTriangle& t) {
+  return on_grid<Coarse>(t);
+}
+// Calls check(grid) for both grids.
+template <typename Check>
+void for_each_grid(Check&& check) {
+  check(Coarse{});
+  check(Fine{});
 }
 
 inline std::int32_t between(Random& random, std::int32_t low, std::int32_t high) {

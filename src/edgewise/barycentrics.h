@@ -48,9 +48,9 @@ struct BarycentricsView {
 //
 // Throws std::invalid_argument
 // - for planes that cannot be read or written, or that overlap in memory, for options of another size than
-//   the frame or another payload than ids, for a camera, an instance's mesh index or matrix, a number of
-//   triangles, a first id or an execution that Frontend::run() throws for, and for flags that are neither
-//   empty nor one per triangle. Then nothing has been written.
+//   the frame or another payload than ids, for a camera, a number of subpixel bits, an instance's mesh index
+//   or matrix, a number of triangles, a first id or an execution that Frontend::run() throws for, and for
+//   flags that are neither empty nor one per triangle. Then nothing has been written.
 // - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
 //   frame shows something else. Then the content of the planes is undefined, as it is after std::bad_alloc.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
@@ -71,15 +71,16 @@ namespace contract {
 //
 // All terms are >= 0, so relative errors only add up. In units of 2^-53:
 //   s_ik: 1 - t, product and sum, for each of six planes           18
-//   c_k: quotient by w, product with E, two sums                   22
-//   u and v: 22, and 24 of the sum of the three, and the quotient  47
+//   E_i, in a double                                                1
+//   c_k: quotient by w, product with E, two sums                   23
+//   u and v: 23, and 25 of the sum of the three, and the quotient  49
 // u is then rounded to a multiple of 2^-24, half to even. v is too, but to 1 - u at most. The exact sum of
 // the two is at most 1, so v is then off by no more than u is: |error of u, v| < 2^-25 + 2^-47. Floats hold
 // u, v, u + v <= 1 and 1 - u - v exactly.
 //
 // The distance along the view direction is
 //   (E_0 + E_1 + E_2) / (c_0 + c_1 + c_2)
-// Its relative error is below 4 + 24 + 1 units, and 2^-24 for the rounding to float. In a stream, and in a
+// Its relative error is below 5 + 25 + 1 units, and 2^-24 for the rounding to float. In a stream, and in a
 // parallel projection, each E_i is multiplied by the depth of vertex i, which is in [0, 1], and divided by
 // w_i.
 //

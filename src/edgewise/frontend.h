@@ -48,6 +48,8 @@ enum class TriangleState : std::uint8_t {
   clipped             // returned clipped
 };
 
+inline constexpr int kMinSubpixelBits = 4, kMaxSubpixelBits = 15;
+
 struct FrontendOptions {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide
   Cull cull = Cull::back;           // the front is clockwise on the y-down screen
@@ -56,6 +58,8 @@ struct FrontendOptions {
   // The id of the first triangle. A draw over others sets it to the number of triangles that they submitted:
   // then two draws equal one of both, ids included.
   std::uint32_t first_id = 0;
+  // x and y of vertices are rounded to 2^-subpixel_bits px (rule 2): kMinSubpixelBits … kMaxSubpixelBits.
+  int subpixel_bits = 8;
   // For measurements: keeps each triangle's vertices as they were before snapping, and does not drop
   // triangles that snapping leaves without area. Slower.
   bool keep_unsnapped = false;
@@ -113,7 +117,7 @@ class Frontend {
   // one drawable at once.
   //
   // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
-  // - a camera or image size out of range, or matrices that camera.h excludes,
+  // - a camera, image size or number of subpixel bits out of range, or matrices that camera.h excludes,
   // - an instance whose mesh index the scene lacks, or whose matrix is not finite and affine,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,

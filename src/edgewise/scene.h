@@ -130,9 +130,24 @@ struct StreamTriangle {
 };
 static_assert(sizeof(StreamTriangle) == 40);
 
+// The same, for coordinates that floats would round.
+struct ExactStreamTriangle {
+  glm::dvec3 vertex[3];
+  std::uint32_t colour;
+};
+
 struct TriangleStream {
   int width = 0, height = 0;  // px; the image size that the stream was made for
   std::vector<StreamTriangle> triangles;
+  std::vector<ExactStreamTriangle> exact{};  // submitted after `triangles`
+
+  std::size_t size() const { return triangles.size() + exact.size(); }
+  // A triangle by its number in submission order, which must be below size().
+  ExactStreamTriangle at(std::size_t i) const {
+    if (i >= triangles.size()) return exact[i - triangles.size()];
+    const auto& [v, colour] = triangles[i];
+    return {{glm::dvec3(v[0]), glm::dvec3(v[1]), glm::dvec3(v[2])}, colour};
+  }
 };
 
 using Drawable = std::variant<Scene, TriangleStream>;

@@ -206,6 +206,7 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
     throw std::invalid_argument("options for " + std::to_string(options.width) + " x " +
                                 std::to_string(options.height) + " px, but a frame of " +
                                 std::to_string(ids.width) + " x " + std::to_string(ids.height) + " px");
+  check_subpixel_bits(options.subpixel_bits);
   if (options.payload != Payload::id)
     throw std::invalid_argument("barycentric coordinates need a frame of ids: Payload::id");
   if (out.uv == nullptr && out.distance == nullptr)

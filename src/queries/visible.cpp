@@ -171,12 +171,12 @@ bool visible(const Bounds& box, const Scene& scene, const ConstFrameView& depth)
   if (most_past_near < 0.0 || most_before_far < 0.0) return false;
   if (!(least_past_near >= 0.0 && least_w > 0.0)) return true;
 
-  // No vertex is drawn farther away from its exact position than `margin`, whose last term covers snapping
-  // and new vertices.
+  // No vertex is drawn farther away from its exact position than `margin`. Its last terms cover snapping to
+  // the fewest subpixel bits, and new vertices.
   const double most_px =
       std::min(std::max({-low.x, -low.y, high.x, high.y, 0.0}), double{contract::kMaxImageSide});
   const double margin = (std::max(row_length(0), row_length(1)) + most_px * w_length) * most_off / least_w +
-                        (view.has_z ? kError * std::max(depth.width, depth.height) : 0.0) + 0x1p-6;
+                        (view.has_z ? kError * std::max(depth.width, depth.height) : 0.0) + 0x1p-5 + 0x1p-6;
   // The pixels whose samples lie in low - margin … high + margin.
   const auto first = [&](double px, int side) {
     return static_cast<int>(std::ceil(std::clamp(px - margin - 0.5, 0.0, double(side))));

@@ -63,6 +63,22 @@ TEST(RandomCases, DependOnSeedAndNumberAlone) {
       << "not the same on every machine and with every compiler, or changed";
 }
 
+TEST(RandomCases, HaveAnyNumberOfSubpixelBits) {
+  std::map<int, int> cases;
+  for (std::uint64_t number = 0; number < 2400; ++number) {
+    const int bits = random_subpixel_bits(1, number);
+    ++cases[bits];
+    const Case c = make_case(1, number, bits);
+    EXPECT_EQ(c.frontend.subpixel_bits, bits);
+    for (const ScreenTriangle& t : c.triangles)
+      for (int i = 0; i < 3; ++i)
+        ASSERT_EQ((t.x_q15[i] | t.y_q15[i]) % (1 << (contract::kFineBits - bits)), 0);
+  }
+  EXPECT_EQ(cases.size(), 12u);
+  EXPECT_GT(cases[8], 1200);
+  for (const auto& [bits, count] : cases) EXPECT_GT(count, 50) << bits;
+}
+
 TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
   std::map<std::string, std::uint64_t> cases, drawn;
   std::set<int> threads;
@@ -77,8 +93,8 @@ TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
     ASSERT_EQ(c.triangles.empty(), c.drawable.has_value());
     for (const ScreenTriangle& t : c.triangles) {
       for (int i = 0; i < 3; ++i) {
-        ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
-        ASSERT_LE(std::abs(t.y_sub[i]), contract::kGuardSub);
+        ASSERT_LE(std::abs(t.x_q15[i]), contract::kGuard_q15);
+        ASSERT_LE(std::abs(t.y_q15[i]), contract::kGuard_q15);
         ASSERT_GE(t.z[i], contract::kDepthHead);
         ASSERT_LE(t.z[i], contract::kDepthHead + contract::kDepthRange);
       }
@@ -127,9 +143,9 @@ TEST(RandomCases, KeepTheGuardBandAtEverySize) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
       const int width = seed % 2 == 0 ? contract::kMaxImageSide : 1 + static_cast<int>(seed);
       for (const ScreenTriangle& t : lab::adversarial(family, 300, width, contract::kMaxImageSide, seed))
-        for (const auto* coordinates : {t.x_sub, t.y_sub})
+        for (const auto* coordinates : {t.x_q15, t.y_q15})
           for (int i = 0; i < 3; ++i)
-            ASSERT_LE(std::abs(coordinates[i]), contract::kGuardSub) << family << ", seed " << seed;
+            ASSERT_LE(std::abs(coordinates[i]), contract::kGuard_q15) << family << ", seed " << seed;
     }
 }
 
@@ -197,7 +213,7 @@ class WrongReference : public Backend {
                     const Execution& execution) override {
     std::vector<ScreenTriangle> moved(triangles.begin(), triangles.end());
     for (ScreenTriangle& t : moved)
-      for (std::int32_t& x : t.x_sub) x = std::max(x - 1, -contract::kGuardSub);
+      for (std::int32_t& x : t.x_q15) x = std::max(x - 128, -contract::kGuard_q15);
     right_->draw(moved, part.frame, testing::pass_of(part), execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
@@ -227,7 +243,8 @@ TEST(RandomFindings, NameThePixelAndTheFewestTriangles) {
   EXPECT_LE(report.findings.size(), kMostFindings);
   EXPECT_GE(report.differences, report.findings.size());
   const std::regex pattern(
-      "case (\\d+) \\(\\S+\\): wrong \\([2-8] threads, \\S+, tile \\d+.*\\) differs from scanline in 1 of "
+      "case (\\d+) \\(\\S+, \\d+ bits\\): wrong \\([2-8] threads, \\S+, tile \\d+.*\\) differs from scanline "
+      "in 1 of "
       "\\d+x\\d+ "
       "pixels, the first at x 0, y 0: depth 0x(\\w{8}), payload 0x(\\w{8}) instead of 0x(\\w{8}), 0x\\3\n"
       "  1 of its triangles show it: .*\n"
@@ -237,7 +254,7 @@ TEST(RandomFindings, NameThePixelAndTheFewestTriangles) {
     std::smatch found;
     ASSERT_TRUE(std::regex_match(finding, found, pattern)) << finding;
     EXPECT_EQ(std::stoul(found[2], nullptr, 16) ^ std::stoul(found[4], nullptr, 16), 1u);
-    EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u);
+    EXPECT_EQ(read_tri(file_of(finding)).size(), 1u);
     // The program lacks the wrong backend, so the file and the command must run and find nothing.
     EXPECT_EQ(run_program(EDGEWISE_PROGRAM, "verify '" + file_of(finding) + "'").status, 0);
     EXPECT_EQ(run_program(EDGEWISE_PROGRAM, "verify --random --seed 8 --case " + found[1].str()).status, 0);
@@ -253,7 +270,7 @@ TEST(RandomFindings, AreNotReducedAfterARequestToStopOrTheTimeLimit) {
     plan.shard = {number, number + 1};
     asked = 0;
     const Report report = run(plan);
-    return report.findings.empty() ? 0 : read_tri(file_of(report.findings[0])).triangles.size();
+    return report.findings.empty() ? 0 : read_tri(file_of(report.findings[0])).size();
   };
   plan.stop = [&] { return ++asked > 1; };  // once the case has begun
   std::uint64_t number = 0;
@@ -291,8 +308,8 @@ TEST(RandomFindings, IncludeAWrongFrontEnd) {
     return execution.threads > 1 && !all.empty() ? all.first(all.size() - 1) : all;
   };
   plan.failure_folder = folder.path() / "failures";
-  const std::string finding = finding_with(plan, "(stream): front end (");
-  EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u) << finding;
+  const std::string finding = finding_with(plan, "(stream, 8 bits): front end (");
+  EXPECT_EQ(read_tri(file_of(finding)).size(), 1u) << finding;
 }
 
 TEST(RandomFindings, IncludeAFrontEndThatIsWrongWithMatrices) {
@@ -304,19 +321,19 @@ TEST(RandomFindings, IncludeAFrontEndThatIsWrongWithMatrices) {
     const bool wrong = scene != nullptr && scene->matrices && !all.empty();
     return wrong ? all.first(all.size() - 1) : all;
   };
-  finding_with(plan, " with matrices): front end (");
+  finding_with(plan, " with matrices, 8 bits): front end (");
 }
 
 TEST(RandomFindings, IncludeAWrongWholeFrame) {
   const TempDir folder;
   std::string finding;  // a scene has no file
-  for (std::uint64_t seed = 14; finding.find(" (stream)") == finding.npos; ++seed) {
+  for (std::uint64_t seed = 14; finding.find(" (stream, ") == finding.npos; ++seed) {
     ASSERT_LT(seed, 40u);
     Plan plan = plan_with<testing::IgnoresSources>(seed, 120);
     plan.failure_folder = folder.path() / "failures";
     finding = finding_with(plan, ", whole frame) differs from scanline");
   }
-  EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u) << finding;
+  EXPECT_EQ(read_tri(file_of(finding)).size(), 1u) << finding;
 }
 
 // Wrong only if it draws over what the frame holds: it clears.
@@ -335,7 +352,7 @@ TEST(RandomFindings, IncludeAWrongFrameInParts) {
   Plan plan = plan_with<AlwaysClears>(15, 60);
   plan.failure_folder = folder.path() / "failures";
   const std::string finding = finding_with(plan, ", in parts) differs from scanline");
-  EXPECT_LE(read_tri(file_of(finding)).triangles.size(), 1u) << "0 show it unless the background is 0";
+  EXPECT_LE(read_tri(file_of(finding)).size(), 1u) << "0 show it unless the background is 0";
 }
 
 TEST(RandomFindings, AreKeptIfNoFileCanBeWritten) {

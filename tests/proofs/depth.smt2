@@ -1,7 +1,7 @@
 ; Rule 6: depth stays within 34 units of the exact plane at every sample that the triangle covers, so the head-room
 ; keeps it from wrapping. The chain of claims:
 ;
-;   numerator_width      |n| <= 2^54, and n is exact in 64 bits                    (nonlinear reals)
+;   numerator_width      |n| <= 2^61, and n is exact in 64 bits                    (nonlinear reals)
 ;   plane_is_weighted,   at a covered sample the exact plane lies between the
 ;   plane_between        least and the greatest z of the vertices                   (nonlinear reals)
 ;   step_error           zx, zy are off by at most 1/2 unit per pixel                 (integers and reals)
@@ -17,7 +17,7 @@
 ;
 ; The premises of each claim are the claims above it.
 
-;; claim numerator_width: |n| <= 2^54 for both gradients, since n is twice the area of a triangle in a box of depths
+;; claim numerator_width: |n| <= 2^61 for both gradients, since n is twice the area of a triangle in a box of depths
 ;;   and coordinates. Each of its two products, and their difference, fits 64 bits.
 (declare-const z0 Real) (declare-const z1 Real) (declare-const z2 Real)
 (declare-const y0 Real) (declare-const y1 Real) (declare-const y2 Real)
@@ -25,7 +25,7 @@
   (between (to_real kDepthHead) z (+ (to_real kDepthHead) (to_real kDepthRange))))
 (assert (and (depth z0) (depth z1) (depth z2) (in_guard y0) (in_guard y1) (in_guard y2)))
 (define-fun n () Real (- (* (- z1 z0) (- y2 y0)) (* (- z2 z0) (- y1 y0))))
-(assert (not (and (between (- (to_real two54)) n (to_real two54))
+(assert (not (and (between (- (to_real two61)) n (to_real two61))
                   (int32r (- z1 z0)) (int64r (* (- z1 z0) (- y2 y0))) (int64r (* (- z2 z0) (- y1 y0))))))
 
 ;; weakened numerator_width: |n| <= 2^53, so that a double holds it exactly.
@@ -35,7 +35,7 @@
   (between (to_real kDepthHead) z (+ (to_real kDepthHead) (to_real kDepthRange))))
 (assert (and (depth z0) (depth z1) (depth z2) (in_guard y0) (in_guard y1) (in_guard y2)))
 (define-fun n () Real (- (* (- z1 z0) (- y2 y0)) (* (- z2 z0) (- y1 y0))))
-(assert (= y0 (- 4194304.0)))
+(assert (= y0 (- 536870912.0)))
 (assert (= z0 128.0))
 (assert (not (between (- (to_real two53)) n (to_real two53))))
 
@@ -94,31 +94,31 @@
 (assert (and (<= (to_real g) true_g) (< true_g (to_real (+ g 1)))))
 (assert (not (< (absr (- (* 65536.0 (to_real (depth_step g))) true_g)) 32768.0)))
 
-;; claim gradient_gap: A gradient that is too small by less than 1 (2^-24 units per sub-unit) shifts the plane by less
-;;   than 2^23 (1/2 unit) over the at most 2^23 sub-units from anchor to sample. An exact gradient does not shift it.
+;; claim gradient_gap: A gradient that is too small by less than 1 (2^-31 units per 2^-15 px) shifts the plane by less
+;;   than 2^30 (1/2 unit) over the at most 2^30 from anchor to sample. An exact gradient does not shift it.
 (declare-const gap Real) (declare-const d Real)
-(assert (and (<= 0.0 gap) (< gap 1.0) (between (- 8388608.0) d 8388608.0)))
-(assert (not (< (absr (* gap d)) 8388608.0)))
+(assert (and (<= 0.0 gap) (< gap 1.0) (between (- 1073741824.0) d 1073741824.0)))
+(assert (not (< (absr (* gap d)) 1073741824.0)))
 
-;; weakened gradient_gap: The same over 2^23 + 1 sub-units.
+;; weakened gradient_gap: The same over 2^30 + 1.
 (declare-const gap Real) (declare-const d Real)
-(assert (and (<= 0.0 gap) (< gap 1.0) (between (- 8388609.0) d 8388609.0)))
-(assert (not (< (absr (* gap d)) 8388608.0)))
+(assert (and (<= 0.0 gap) (< gap 1.0) (between (- 1073741825.0) d 1073741825.0)))
+(assert (not (< (absr (* gap d)) 1073741824.0)))
 
-;; claim middle_error: The depth at the middle sample is off by less than 3/2. s = gx dx + gy dy is the computed sum; off_x
-;;   and off_y are the shifts due to the gradients' rounding; the plane is exact, in units of 2^-24.
+;; claim middle_error: The depth at the middle sample is off by less than 3/2. s = gx dx + gy dy is the computed sum;
+;;   off_x and off_y are the shifts due to the gradients' rounding; the plane is exact, in units of 2^-31.
 (declare-const z Int) (declare-const s Int) (declare-const off_x Real) (declare-const off_y Real)
-(assert (and (< (absr off_x) 8388608.0) (< (absr off_y) 8388608.0)))
-(define-fun middle () Int (div (+ (* two24 z) 8388608 s) two24))
-(define-fun plane () Real (+ (* 16777216.0 (to_real z)) (to_real s) off_x off_y))
-(assert (not (< (absr (- (* 16777216.0 (to_real middle)) plane)) (* 1.5 16777216.0))))
+(assert (and (< (absr off_x) 1073741824.0) (< (absr off_y) 1073741824.0)))
+(define-fun middle () Int (div (+ (* two31 z) 1073741824 s) two31))
+(define-fun plane () Real (+ (* 2147483648.0 (to_real z)) (to_real s) off_x off_y))
+(assert (not (< (absr (- (* 2147483648.0 (to_real middle)) plane)) (* 1.5 2147483648.0))))
 
 ;; weakened middle_error: It is off by less than 5/4.
 (declare-const z Int) (declare-const s Int) (declare-const off_x Real) (declare-const off_y Real)
-(assert (and (< (absr off_x) 8388608.0) (< (absr off_y) 8388608.0)))
-(define-fun middle () Int (div (+ (* two24 z) 8388608 s) two24))
-(define-fun plane () Real (+ (* 16777216.0 (to_real z)) (to_real s) off_x off_y))
-(assert (not (< (absr (- (* 16777216.0 (to_real middle)) plane)) (* 1.25 16777216.0))))
+(assert (and (< (absr off_x) 1073741824.0) (< (absr off_y) 1073741824.0)))
+(define-fun middle () Int (div (+ (* two31 z) 1073741824 s) two31))
+(define-fun plane () Real (+ (* 2147483648.0 (to_real z)) (to_real s) off_x off_y))
+(assert (not (< (absr (- (* 2147483648.0 (to_real middle)) plane)) (* 1.25 2147483648.0))))
 
 ;; claim sample_error: Depth at a pixel of a cell, that is, x and y steps from the middle one, is off by less than
 ;;   kDepthError.
@@ -137,16 +137,16 @@
 (assert (and (in_cell x) (in_cell y)))
 (assert (not (< (absr (+ off_middle (* x off_zx) (* y off_zy))) (- (to_real kDepthError) 1.0))))
 
-;; claim base_of_middle: 2^13 (gx - 2^16 zx) more than the sum s at the first sample, rounded down, is the sum at the
-;;   middle, s + 2^13 gx, rounded down, less 32 zx. gx - 2^16 zx is the lower 16 bits of gx + 2^15, less 2^15.
+;; claim base_of_middle: 2^20 (gx - 2^16 zx) more than the sum s at the first sample, rounded down, is the sum at the
+;;   middle, s + 2^20 gx, rounded down, less 32 zx. gx - 2^16 zx is the lower 16 bits of gx + 2^15, less 2^15.
 (declare-const s Int) (declare-const g Int)
-(define-fun shift () Int (* 8192 (- (mod (+ g 32768) two16) 32768)))
-(assert (not (= (div (+ s shift) two24) (- (div (+ s (* 8192 g)) two24) (* 32 (depth_step g))))))
+(define-fun shift () Int (* 1048576 (- (mod (+ g 32768) two16) 32768)))
+(assert (not (= (div (+ s shift) two31) (- (div (+ s (* 1048576 g)) two31) (* 32 (depth_step g))))))
 
 ;; weakened base_of_middle: The same without the 2^15.
 (declare-const s Int) (declare-const g Int)
-(define-fun shift () Int (* 8192 (mod (+ g 32768) two16)))
-(assert (not (= (div (+ s shift) two24) (- (div (+ s (* 8192 g)) two24) (* 32 (depth_step g))))))
+(define-fun shift () Int (* 1048576 (mod (+ g 32768) two16)))
+(assert (not (= (div (+ s shift) two31) (- (div (+ s (* 1048576 g)) two31) (* 32 (depth_step g))))))
 
 ;; claim head_room: A number within kDepthError of a plane between vertex depths neither wraps nor reaches
 ;;   kDepthClear.
@@ -161,16 +161,16 @@
 (assert (< (absr (- (to_real z) plane)) (to_real kDepthError)))
 (assert (not (and (< 0 z) (< z kDepthClear) (= (mod z two32) z) (= (signed32 z) z))))
 
-;; claim wrapped_base: Taking a sum s modulo 2^64 keeps bits 24 to 55: floor(v / 2^24) = floor(s / 2^24) modulo 2^32,
+;; claim wrapped_base: Taking a sum s modulo 2^64 keeps bits 31 to 62: floor(v / 2^31) = floor(s / 2^31) modulo 2^32,
 ;;   with v = s mod 2^64.
 (declare-const s Int) (declare-const v Int) (declare-const k Int)
 (assert (and (= s (+ v (* two64 k))) (<= 0 v) (< v two64)))
-(assert (not (= (mod (div v two24) two32) (mod (div s two24) two32))))
+(assert (not (= (mod (div v two31) two32) (mod (div s two31) two32))))
 
-;; weakened wrapped_base: They are equal modulo 2^41.
+;; weakened wrapped_base: They are equal modulo 2^34.
 (declare-const s Int) (declare-const v Int) (declare-const k Int)
 (assert (and (= s (+ v (* two64 k))) (<= 0 v) (< v two64)))
-(assert (not (= (mod (div v two24) 2199023255552) (mod (div s two24) 2199023255552))))
+(assert (not (= (mod (div v two31) 17179869184) (mod (div s two31) 17179869184))))
 
 ;; claim wrapped_step: Taking a sum s modulo 2^64 keeps bits 16 to 47: floor(v / 2^16) = floor(s / 2^16) modulo 2^32.
 (declare-const s Int) (declare-const v Int) (declare-const k Int)

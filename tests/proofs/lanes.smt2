@@ -58,17 +58,18 @@
 (assert (or (= f (_ bv0 64)) (= f (_ bv1 64))))
 (assert (not (= (bvsub (bvxor v f) f) (ite (= f (_ bv0 64)) v (bvneg v)))))
 
-;; claim logical_shift: The lower halves of a logical and an arithmetic shift right by 8 are equal, so edge values may
-;;   be shifted as unsigned numbers.
-(declare-const v (_ BitVec 64))
-(assert (not (= ((_ extract 31 0) (bvlshr v (_ bv8 64))) ((_ extract 31 0) (bvashr v (_ bv8 64))))))
+;; claim logical_shift: The lower halves of a logical and an arithmetic shift right by up to 15 are equal, so edge
+;;   values may be shifted as unsigned numbers.
+(declare-const v (_ BitVec 64)) (declare-const n (_ BitVec 64))
+(assert (bvule n (_ bv15 64)))
+(assert (not (= ((_ extract 31 0) (bvlshr v n)) ((_ extract 31 0) (bvashr v n)))))
 
 ;; weakened logical_shift: They are equal for a shift by 33.
 (declare-const v (_ BitVec 64))
 (assert (not (= ((_ extract 31 0) (bvlshr v (_ bv33 64))) ((_ extract 31 0) (bvashr v (_ bv33 64))))))
 
-;; claim edge_products: In the set-up for a tile, every factor fits 32 bits and every sum fits 48: the first edge
-;;   value, its rise to the last pixel of a box in the tile, and the sum of both.
+;; claim edge_products: In the set-up for a tile, every factor fits 32 bits and every sum stays below 2^62: the first
+;;   edge value, its rise to the last pixel of a box in the tile, and the sum of both.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
 (declare-const sx Real) (declare-const sy Real) (declare-const last_x Real) (declare-const last_y Real)
 (assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard sx) (in_guard sy)))
@@ -76,11 +77,11 @@
 (define-fun a () Real (edge_a py qy))
 (define-fun b () Real (edge_b px qx))
 (define-fun rise () Real (+ (* (maxr a 0.0) last_x) (* (maxr b 0.0) last_y)))
-(define-fun fits ((v Real)) Bool (between (- 281474976710656.0) v 281474976710656.0))
+(define-fun fits ((v Real)) Bool (between (- 4611686018427387904.0) v 4611686018427387904.0))
 (assert (not (and (int32r a) (int32r b) (int32r (- sx px)) (int32r (- sy py)) (int32r rise)
-                  (fits (+ (edge_at px py qx qy sx sy) (* 256.0 rise))))))
+                  (fits (+ (edge_at px py qx qy sx sy) (* 32768.0 rise))))))
 
-;; weakened edge_products: Every sum fits 46 bits.
+;; weakened edge_products: Every sum stays below 2^60.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
 (declare-const sx Real) (declare-const sy Real) (declare-const last_x Real) (declare-const last_y Real)
 (assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard sx) (in_guard sy)))
@@ -88,15 +89,15 @@
 (define-fun a () Real (edge_a py qy))
 (define-fun b () Real (edge_b px qx))
 (define-fun rise () Real (+ (* (maxr a 0.0) last_x) (* (maxr b 0.0) last_y)))
-(assert (and (= px (- 4194304.0)) (= py 4194304.0) (= qy (- 4194304.0)) (= sx 4194304.0)))
-(assert (not (between (- 70368744177664.0) (+ (edge_at px py qx qy sx sy) (* 256.0 rise)) 70368744177664.0)))
+(assert (and (= px (- 536870912.0)) (= py 536870912.0) (= qy (- 536870912.0)) (= sx 536870912.0)))
+(assert (not (between (- (to_real two60)) (+ (edge_at px py qx qy sx sy) (* 32768.0 rise)) (to_real two60))))
 
 ;; claim area_in_pixels: Twice the area of a triangle, in whole square pixels, fits 32 bits.
 (declare-const area Int)
-(assert (and (<= 0 area) (<= area two46)))
-(assert (not (int32 (div area two16))))
+(assert (and (<= 0 area) (<= area two60)))
+(assert (not (int32 (div area two30))))
 
 ;; weakened area_in_pixels: In quarters of a square pixel it fits 32 bits.
 (declare-const area Int)
-(assert (and (<= 0 area) (<= area two46)))
-(assert (not (int32 (div (* 4 area) two16))))
+(assert (and (<= 0 area) (<= area two60)))
+(assert (not (int32 (div (* 4 area) two30))))

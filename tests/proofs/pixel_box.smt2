@@ -33,7 +33,7 @@
 
 ;; weakened right: Nor is it within half a pixel of that side.
 (assert a_triangle_owns_s)
-(assert (and (>= (+ sx 128.0) px) (>= (+ sx 128.0) qx) (>= (+ sx 128.0) rx)))
+(assert (and (>= (+ sx 16384.0) px) (>= (+ sx 16384.0) qx) (>= (+ sx 16384.0) rx)))
 
 ;; claim bottom: s is not on the box's lower side, nor below it.
 (assert a_triangle_owns_s)
@@ -41,21 +41,21 @@
 
 ;; weakened bottom: Nor is it within half a pixel of that side.
 (assert a_triangle_owns_s)
-(assert (and (>= (+ sy 128.0) py) (>= (+ sy 128.0) qy) (>= (+ sy 128.0) ry)))
+(assert (and (>= (+ sy 16384.0) py) (>= (+ sy 16384.0) qy) (>= (+ sy 16384.0) ry)))
 
 ;; claim first_sample: The sample of a pixel is at or after a coordinate exactly if the pixel is at or after
 ;;   first_sample() of it. So the pixels from first_sample(min) to before first_sample(max) are those with min <=
 ;;   sample < max.
 (declare-const c Int) (declare-const pixel Int)
-(assert (not (= (<= c (sample_sub pixel)) (<= (first_sample c) pixel))))
+(assert (not (= (<= c (sample_q15 pixel)) (<= (first_sample c) pixel))))
 
 ;; weakened first_sample: The same for a sample strictly after the coordinate.
 (declare-const c Int) (declare-const pixel Int)
-(assert (not (= (< c (sample_sub pixel)) (<= (first_sample c) pixel))))
+(assert (not (= (< c (sample_q15 pixel)) (<= (first_sample c) pixel))))
 
 ;; claim empty_box: If a triangle covers a sample, its box is not empty, because min <= sample < max.
 (declare-const least Int) (declare-const most Int) (declare-const pixel Int)
-(assert (and (<= least (sample_sub pixel)) (< (sample_sub pixel) most)))
+(assert (and (<= least (sample_q15 pixel)) (< (sample_q15 pixel) most)))
 (assert (not (< (first_sample least) (first_sample most))))
 
 ;; weakened empty_box: If a vertex is left of another, its box is not empty.

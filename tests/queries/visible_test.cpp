@@ -22,10 +22,11 @@
 namespace edgewise {
 namespace {
 
-Framebuffer ids_of(const Drawable& drawable, int width, int height, Cull cull = Cull::none) {
+Framebuffer ids_of(const Drawable& drawable, int width, int height, Cull cull = Cull::none, int bits = 8) {
   Framebuffer frame(width, height);
   Frontend frontend;
-  draw(drawable, frontend, {.width = width, .height = height, .cull = cull, .payload = Payload::id},
+  draw(drawable, frontend,
+       {.width = width, .height = height, .cull = cull, .payload = Payload::id, .subpixel_bits = bits},
        *find_backend("naive").make(), frame.view());  // a background that is an id too
   return frame;
 }
@@ -219,9 +220,9 @@ Scene faces_of(const Bounds& box, const Camera& camera) {
 
 // A frame that hides the box in all pixels but one, where what lies in the box barely wins. It does so at
 // each end of the pixels that it has, and where it is nearest.
-void expect_seen(const Scene& scene, const Bounds& box, int width, int height, const std::string& what,
-                 int& seen) {
-  const Framebuffer alone = ids_of(scene, width, height);
+void expect_seen(const Scene& scene, const Bounds& box, int width, int height, int bits,
+                 const std::string& what, int& seen) {
+  const Framebuffer alone = ids_of(scene, width, height, Cull::none, bits);
   Framebuffer frame(width, height);
   for (int y = 0; y < height; ++y) std::fill_n(frame.view().depth + y * frame.stride(), width, 0u);
   std::map<std::string, std::pair<std::int64_t, glm::ivec2>>
@@ -261,12 +262,13 @@ TEST(Visible, BoxIsSeenWhereverWhatLiesInItWinsAPixel) {
       if (random.below(2) == 0) mesh.triangles.resize(1), mesh.colours.resize(1);
       const Bounds box = bounds_of(scene);
       const std::string what = std::string(family.name) + " " + std::to_string(trial);
-      expect_seen(scene, box, width, height, what, seen);
+      const int bits = kMinSubpixelBits + static_cast<int>(trial % 12);
+      expect_seen(scene, box, width, height, bits, what, seen);
       // Rule 10 needs a camera that is not too far from the faces' origin.
       if (const double size = glm::length(box.high - box.low); size < 0x1p12) {
         Scene faces = faces_of(box, scene.camera);
         faces.matrices = scene.matrices;
-        expect_seen(faces, box, width, height, what + ", faces", seen);
+        expect_seen(faces, box, width, height, bits, what + ", faces", seen);
       }
       if (HasFatalFailure()) return;
       Framebuffer nearest(width, height);
@@ -303,7 +305,7 @@ TEST(Visible, FacingBoxIsSeenInEachColumnAndAtItsDepth) {
       scene.matrices = {glm::dmat4(1.0), m.projection * m.view};
     else if (trial % 5 == 3)
       scene.matrices = {m.view, orthographic_projection(-2, 2, -1.5, 1.5, 0.5, 5.0)};
-    expect_seen(scene, bounds_of(scene), 40, 30, std::to_string(trial), seen);
+    expect_seen(scene, bounds_of(scene), 40, 30, kMinSubpixelBits + trial % 12, std::to_string(trial), seen);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(seen, 4900);

@@ -9,6 +9,7 @@
 #include "edgewise/draw.h"
 #include "lab/cases/backend_comparison.h"
 #include "lab/cases/hard_triangles.h"
+#include "lab/truth/oracle.h"
 #include "message_of.h"
 #include "raster/kernels.h"
 #include "support.h"
@@ -60,10 +61,11 @@ TEST(Compositions, DrawTheSamePicturesOfHardTrianglesInRenderPasses) {
   const auto naive = find_backend("naive").make();
   const PixelRect scissors[] = {{}, {1, 2, 3, 35}, {37, 21, 50, 80}, {64, 32, 32, 33}, {-9, 63, 110, 1}};
   Random random(9);
-  for (const auto& [width, height] : {std::pair{97, 71}, {5, 40}, {200, 130}}) {
+  for (const auto& [width, height, bits] :
+       {std::tuple{97, 71, 8}, {97, 71, 15}, {5, 40, 8}, {5, 40, 12}, {200, 130, 8}, {200, 130, 15}}) {
     std::vector<ScreenTriangle> triangles;
     for (const auto family : testing::kFamilies) {
-      const auto some = testing::adversarial(family, 100, width, height, 8);
+      const auto some = testing::adversarial(family, 100, width, height, 8, bits);
       triangles.insert(triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2), some.begin(),
                        some.end());
     }
@@ -89,13 +91,37 @@ TEST(Compositions, DrawTheSamePicturesOfHardTrianglesInRenderPasses) {
   }
 }
 
+// Edges are up to 2^15 px long. Of some lists, only the last packets are fine.
+TEST(Compositions, DrawTheOraclesPicturesOnEveryGrid) {
+  constexpr int kWidth = 97, kHeight = 71;
+  const auto naive = find_backend("naive").make();
+  Framebuffer expected(kWidth, kHeight), found(kWidth, kHeight);
+  for (const int bits : {4, 8, 9, 12, 15})
+    for (const auto family : testing::kFamilies) {
+      auto triangles = testing::adversarial(family, 60, kWidth, kHeight, 31, bits);
+      const auto coarse = testing::adversarial("cloud", bits == 12 ? 150 : 0, kWidth, kHeight, 32);
+      triangles.insert(triangles.begin(), coarse.begin(), coarse.end());
+      lab::draw_oracle(triangles, expected, kBackground);
+      const std::string what = std::string(family) + ", " + std::to_string(bits) + " bits, ";
+      const auto check = [&](Backend& backend, const Execution& execution, const std::string& name) {
+        if (bits > 8 && !name.starts_with("naive") && !name.starts_with("tiles+edges")) return;
+        lab::poison(found);
+        backend.draw(triangles, found.view(), {kBackground}, execution);
+        expect_same(expected, found, what + name);
+      };
+      check(*naive, {}, "naive");
+      for_each_composition(false, check);
+    }
+}
+
 #ifdef EDGEWISE_COUNT_FILLS
 // Which parts drew or rejected how many triangles, counted once per band, tile or strip of a light tile. The
 // scene: two large ones, the second behind the first, 16 small ones, and one alone in its tile. Spans count
 // the large ones also in the tile of their boxes where they cover nothing.
 std::string parts_used(const BackendInfo& info, SimdTarget target) {
   const auto right_angled = [](int x_px, int y_px, int leg_px, std::uint32_t z) {
-    const std::int32_t x = x_px * contract::kSub, y = y_px * contract::kSub, leg = leg_px * contract::kSub;
+    using contract::kPixel_q15;
+    const std::int32_t x = x_px * kPixel_q15, y = y_px * kPixel_q15, leg = leg_px * kPixel_q15;
     return ScreenTriangle{{x, x + leg, x}, {y, y, y + leg}, {z, z, z}, 1};
   };
   std::vector triangles{right_angled(0, 0, 128, 500), right_angled(0, 0, 128, 900),

@@ -26,7 +26,7 @@ std::int64_t inverse(std::int64_t a, std::int64_t m) {
 struct EdgeStart {
   std::int32_t x, y, dx;  // sub-units; dx to the edge's end
 };
-// The start p of an edge of height `dy` sub-units that crosses the sample's row rest / (256 dy) px to the
+// The start p of an edge of height `dy` sub-units that crosses the sample's row rest / (kSub dy) px to the
 // right of the sample: (p.x - sample_x) dy + n dx = rest, where p is n >= dy / 2 sub-units above the sample.
 EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t rest, std::int64_t dy) {
   std::int64_t n = dy / 2;
@@ -40,32 +40,46 @@ EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t
 }
 
 TEST_P(EveryBackend, ResolvesEdgesNextToASample) {
-  struct Case {
-    int side;  // of the image, px
-    std::vector<std::int32_t> heights;
-    std::vector<std::int64_t> rests;
-    std::int32_t right, down;  // from the edge to the third vertex, sub-units
-  };
-  // Tall edges; then sides just below 16 px, the steepest edges that small triangles can have. An edge's
-  // value is rounded down to whole pixels: 0 … 255 count as 0.
-  const Case cases[] = {
-      {70, {2 * kGuardSub - 40'001, kGuardSub + 1, 131'071, 8'191}, {-1, 0, 1}, 2 * kGuardSub, 1000},
-      {8, {4'095, 4'093, 2'731}, {-256, -255, -1, 0, 1, 255, 256}, 1'900, 700}};
-  for (const auto& [side, heights, rests, right, down] : cases)
-    for (const std::int32_t dy : heights)
-      for (const std::int64_t rest : rests)
-        for (const int row : {0, side / 2, side - 1})
-          for (const bool across : {false, true}) {
-            const auto [x, y, dx] = edge_beside(sample_sub(row * 5 % side), sample_sub(row), rest, dy);
-            for (const std::int32_t third_x : {std::min(x, x + dx) - right, std::max(x, x + dx) + right}) {
-              ScreenTriangle t{{x, x + dx, std::clamp(third_x, -kGuardSub, kGuardSub)},
-                               {y, y + dy, y + down},
-                               {5000, 6000, 7000},
-                               1};
-              if (across) std::swap(t.x_sub, t.y_sub);
-              expect_oracle(std::span(&t, 1), side, side, std::to_string(dy) + ", " + std::to_string(rest));
+  testing::for_each_grid([&](auto grid) {
+    using G = decltype(grid);
+    struct Case {
+      int side;  // of the image, px
+      std::vector<std::int32_t> heights;
+      std::vector<std::int64_t> rests;
+      std::int32_t right, down;  // from the edge to the third vertex, sub-units
+    };
+    // Tall edges; then sides just below 16 px, the steepest edges that small triangles can have. An edge's
+    // value is rounded down to whole pixels: 0 … kSub - 1 count as 0.
+    constexpr std::int32_t kSub = G::kSub, kGuard = G::kGuardSub;
+    const Case cases[] = {
+        {70,
+         {2 * kGuard - 160 * kSub + 1, kGuard + 1, kGuard / 2 - 1, 512 * kSub - 1, 32 * kSub - 1},
+         {-1, 0, 1},
+         2 * kGuard,
+         4 * kSub},
+        {8,
+         {16 * kSub - 1, 16 * kSub - 3, 11 * kSub - 5},
+         {-kSub, 1 - kSub, -1, 0, 1, kSub - 1, kSub},
+         7 * kSub,
+         3 * kSub}};
+    for (const auto& [side, heights, rests, right, down] : cases)
+      for (const std::int32_t dy : heights)
+        for (const std::int64_t rest : rests)
+          for (const int row : {0, side / 2, side - 1})
+            for (const bool across : {false, true}) {
+              const auto [x, y, dx] = edge_beside(G::sample(row * 5 % side), G::sample(row), rest, dy);
+              for (const std::int32_t third_x : {std::min(x, x + dx) - right, std::max(x, x + dx) + right}) {
+                ScreenTriangle t = testing::on_grid<G>({{x, x + dx, std::clamp(third_x, -kGuard, kGuard)},
+                                                        {y, y + dy, y + down},
+                                                        {5000, 6000, 7000},
+                                                        1});
+                if (across) std::swap(t.x_q15, t.y_q15);
+                expect_oracle(std::span(&t, 1), side, side,
+                              std::to_string(G::kSubBits) + " bits, " + std::to_string(dy) + ", " +
+                                  std::to_string(rest));
+              }
             }
-          }
+  });
 }
 
 // A triangle with its right angle at the upper left and depth z(x, y) at its vertices; all in px. By default
@@ -73,8 +87,8 @@ TEST_P(EveryBackend, ResolvesEdgesNextToASample) {
 template <typename Depth>
 ScreenTriangle right_triangle(const Depth& z, int id, int left = -100, int right = 400, int bottom = 400) {
   constexpr int kTop = -100;
-  return {{left * kSub, right * kSub, left * kSub},
-          {kTop * kSub, kTop * kSub, bottom * kSub},
+  return {{left * kPixel_q15, right * kPixel_q15, left * kPixel_q15},
+          {kTop * kPixel_q15, kTop * kPixel_q15, bottom * kPixel_q15},
           {z(left, kTop), z(right, kTop), z(left, bottom)},
           static_cast<std::uint32_t>(id)};
 }
@@ -135,14 +149,18 @@ TEST_P(EveryBackend, DrawsSteepTrianglesWhoseDepthPlanesWrap) {
   constexpr int kWidth = 64, kHeight = 64;
   Random random(17);
   const ScreenTriangle layer = right_triangle(at_depth(kDepthRange / 2), 1);
-  for (int i = 0; i < 200; ++i) {
-    const std::int32_t x = between(random, 0, 4 * kSub), y = between(random, 0, 63 * kSub);
-    const ScreenTriangle thin{{x, between(random, 57 * kSub, 63 * kSub), x + between(random, -500, 500)},
-                              {y, between(random, 0, 63 * kSub), y + between(random, 100, 1000)},
-                              {kDepthHead, kDepthHead, kDepthHead + kDepthRange},
-                              2};
-    expect_oracle(std::array{layer, thin}, kWidth, kHeight, std::to_string(i));
-  }
+  testing::for_each_grid([&](auto grid) {
+    using G = decltype(grid);
+    for (int i = 0; i < 200; ++i) {
+      const std::int32_t x = between(random, 0, 4 * G::kSub), y = between(random, 0, 63 * G::kSub);
+      const ScreenTriangle thin = testing::on_grid<G>(
+          {{x, between(random, 57 * G::kSub, 63 * G::kSub), x + between(random, -2 * G::kSub, 2 * G::kSub)},
+           {y, between(random, 0, 63 * G::kSub), y + between(random, G::kSub / 2, 4 * G::kSub)},
+           {kDepthHead, kDepthHead, kDepthHead + kDepthRange},
+           2});
+      expect_oracle(std::array{layer, thin}, kWidth, kHeight, std::to_string(i));
+    }
+  });
 }
 
 TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
@@ -150,17 +168,21 @@ TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
   // depths.
   constexpr int kWidth = 70, kHeight = 5;
   Random random(13);
-  for (std::uint32_t id = 0; id < 100; ++id) {
-    const std::int32_t top = between(random, -kGuardSub, -kGuardSub / 2),
-                       far = between(random, kGuardSub / 2, kGuardSub);
-    ScreenTriangle t{{-far, far, between(random, -far, far)},
-                     {top, id % 2 == 0 ? top : top + between(random, 0, 1000), kGuardSub},
-                     {},
-                     id};
-    for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
-    for (auto* field : {t.x_sub, t.y_sub}) std::rotate(field, field + id % 3, field + 3);
-    expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(id));
-  }
+  testing::for_each_grid([&](auto grid) {
+    using G = decltype(grid);
+    for (std::uint32_t id = 0; id < 100; ++id) {
+      const std::int32_t top = between(random, -G::kGuardSub, -G::kGuardSub / 2),
+                         far = between(random, G::kGuardSub / 2, G::kGuardSub);
+      ScreenTriangle t =
+          testing::on_grid<G>({{-far, far, between(random, -far, far)},
+                               {top, id % 2 == 0 ? top : top + between(random, 0, 4 * G::kSub), G::kGuardSub},
+                               {},
+                               id});
+      for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
+      for (auto* field : {t.x_q15, t.y_q15}) std::rotate(field, field + id % 3, field + 3);
+      expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(id));
+    }
+  });
 }
 
 }  // namespace

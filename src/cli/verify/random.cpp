@@ -76,8 +76,12 @@ void draw_in_parts(Backend& backend, std::span<const ScreenTriangle> triangles, 
 // The triangles after writing and reading them as a stream, which rounds depths to floats.
 std::vector<ScreenTriangle> replayed(const Case& c) {
   Frontend frontend;
-  const auto again = frontend.run(lab::to_stream(c.triangles, c.width, c.height),
-                                  {.width = c.width, .height = c.height, .cull = Cull::none, .shade = false});
+  const auto again =
+      frontend.run(lab::to_stream(c.triangles, c.width, c.height), {.width = c.width,
+                                                                    .height = c.height,
+                                                                    .cull = Cull::none,
+                                                                    .shade = false,
+                                                                    .subpixel_bits = kMaxSubpixelBits});
   return {again.begin(), again.end()};
 }
 
@@ -234,8 +238,9 @@ class Checker {
     const std::string_view drawn = probe.output == Output::whole_frame      ? ", whole frame"
                                    : probe.output == Output::frame_in_parts ? ", in parts"
                                                                             : "";
-    std::string text = fmt::format("case {} ({}): {} ({}{}) differs from {} in {}\n", c.number, c.family,
-                                   name, tools::describe(probe.how), drawn, judge, difference);
+    std::string text =
+        fmt::format("case {} ({}, {} bits): {} ({}{}) differs from {} in {}\n", c.number, c.family,
+                    c.frontend.subpixel_bits, name, tools::describe(probe.how), drawn, judge, difference);
     if (!plan_.failure_folder.empty()) {
       const std::string file = fmt::format("seed-{}-case-{}-{}.tri", plan_.seed, c.number, versus);
       Report not_counted;  // another checker, because this one's buffers are in use
@@ -336,7 +341,8 @@ void run(const Plan& plan, Report& report) {
   until_deadline.stop = [&] { return plan.stop() || seconds() >= plan.seconds; };
   Checker checker(until_deadline, report);
   while (report.cases < plan.cases && report.seconds < plan.seconds && !plan.stop()) {
-    Case c = make_case(plan.seed, plan.shard.index + report.cases * plan.shard.of);
+    const std::uint64_t number = plan.shard.index + report.cases * plan.shard.of;
+    Case c = make_case(plan.seed, number, random_subpixel_bits(plan.seed, number));
     try {
       checker.check(c);
       if (auto other = with_matrices(c)) {

@@ -233,7 +233,7 @@ void cut_to_budget(std::vector<ScreenTriangle>& triangles, int width, int height
 
 }  // namespace
 
-Case make_case(std::uint64_t seed, std::uint64_t number) {
+Case make_case(std::uint64_t seed, std::uint64_t number, int subpixel_bits) {
   Random random = random_of(seed, number);
   Case c;
   c.number = number;
@@ -243,6 +243,7 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
   c.threads = kThreads[random.below(kThreads.size())];
   c.large_oracle_budget = random.below(16) == 0;
   c.draws_seed = random.next();
+  c.frontend.subpixel_bits = subpixel_bits;
 
   const auto lists = lab::triangle_families();
   const auto scenes = scene_families();
@@ -251,7 +252,8 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
     c.family = lists[kind];
     // Several chunks, sometimes.
     const auto count = random.below(100) == 0 ? 8000 + random.below(12'000) : 1 + random.below(300);
-    c.triangles = lab::adversarial(c.family, static_cast<int>(count), c.width, c.height, random.next());
+    c.triangles =
+        lab::adversarial(c.family, static_cast<int>(count), c.width, c.height, random.next(), subpixel_bits);
     cut_to_budget(c.triangles, c.width, c.height);
     return c;
   }
@@ -266,6 +268,12 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
   c.frontend.payload = random.below(2) == 0 ? Payload::colour : Payload::id;
   c.drawable = scene.make(random, c.width, c.height);
   return c;
+}
+
+int random_subpixel_bits(std::uint64_t seed, std::uint64_t number) {
+  Random random = random_of(~seed, number);
+  constexpr auto kChoices = static_cast<std::uint64_t>(kMaxSubpixelBits - kMinSubpixelBits + 1);
+  return one_in(random, 2) ? 8 : kMinSubpixelBits + static_cast<int>(random.below(kChoices));
 }
 
 namespace {

@@ -23,14 +23,16 @@ struct Case {
 
   std::vector<ScreenTriangle> triangles;  // of a family in lab/cases/hard_triangles.h; else
   std::optional<Drawable> drawable;       // of a scene family, with
-  FrontendOptions frontend;               // its culling, payload and shading
+  FrontendOptions frontend;               // its culling, payload and shading; subpixel bits, of lists too
 
   bool large_oracle_budget = false;  // the oracle may take longer in this case
   std::uint64_t draws_seed = 0;      // for choices that depend on the machine's SIMD targets: tile sizes,
                                      // strides, tile options
 };
 
-Case make_case(std::uint64_t seed, std::uint64_t number);
+Case make_case(std::uint64_t seed, std::uint64_t number, int subpixel_bits = 8);
+// Of half of the cases 8, of the others any.
+int random_subpixel_bits(std::uint64_t seed, std::uint64_t number);
 
 // Matrices that show about what a camera does: of the kinds that camera.h has helpers for, and general ones.
 // Empty if the front end refuses the camera or the matrices.

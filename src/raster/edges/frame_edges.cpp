@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <type_traits>
 
+#include "core/grid.h"
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
 #include "raster/frame_lanes-inl.h"
@@ -18,14 +21,45 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-// Shifts an edge value (rule 5), and clamps it to 2^30. In a depth cell and a vector of pixels beside it, 79
-// px to the side and 32 down, a value changes by at most 111 * 2^23 < 2^30, so a clamped one keeps its sign,
-// and does not overflow.
-inline std::int32_t in_int32(std::int64_t value) {
-  constexpr std::int64_t kLimit = 1 << 30;
-  return static_cast<std::int32_t>(std::clamp(value >> kSubBits, -kLimit, kLimit));
-}
+// Shifted edge values (rule 5) of a vector of pixels, stepped from row to row. `first`: at the pixels'
+// position 0; a, b: the steps to the right and down.
+//
+// For steps of at most kShort, that is, on the coarse grid always, a first value may be clamped to 2^30. In a
+// depth cell and a vector of pixels beside it, 79 px to the side and 32 down, values change by at most 111 *
+// 2^23 < 2^30, so a clamped one keeps its sign, and does not overflow.
+constexpr std::int32_t kShort = 2 * Coarse::kGuardSub;
+struct ShortEdge {
+  V value, down;
+  HWY_INLINE ShortEdge(std::int64_t first, std::int32_t a, std::int32_t b, int px) : down(hn::Set(D{}, b)) {
+    constexpr std::int64_t kLimit = 1 << 30;
+    const auto clamped = static_cast<std::int32_t>(std::clamp(first, -kLimit, kLimit));
+    value = hn::Add(hn::Set(D{}, clamped), hn::Mul(hn::Iota(D{}, px), hn::Set(D{}, a)));
+  }
+  HWY_INLINE V sign() const { return value; }
+  HWY_INLINE void next() { value = hn::Add(value, down); }
+};
+// Any steps: a value is 2^31 high + low, 0 <= low < 2^31.
+struct LongEdge {
+  V high, low, down_high, down_low;
+  HWY_INLINE LongEdge(std::int64_t first, std::int32_t a, std::int32_t b, int px)
+      : down_high(hn::Set(D{}, b >> 31)), down_low(hn::Set(D{}, b & 0x7FFFFFFF)) {
+    alignas(64) std::int32_t highs[kLanes], lows[kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      const std::int64_t value = first + std::int64_t{a} * (px + i);
+      highs[i] = static_cast<std::int32_t>(value >> 31),
+      lows[i] = static_cast<std::int32_t>(value & 0x7FFFFFFF);
+    }
+    high = hn::Load(D{}, highs), low = hn::Load(D{}, lows);
+  }
+  HWY_INLINE V sign() const { return high; }
+  HWY_INLINE void next() {
+    low = hn::Add(low, down_low);  // wraps if it exceeds 31 bits
+    high = hn::Sub(hn::Add(high, down_high), hn::ShiftRight<31>(low));
+    low = hn::And(low, hn::Set(D{}, 0x7FFFFFFF));
+  }
+};
 
+template <class G>
 struct FrameEdges : FrameBatch {
   struct {
     std::int64_t first[kBatch];         // biased value (rule 4) at the box's first sample
@@ -33,11 +67,11 @@ struct FrameEdges : FrameBatch {
   } edge[3];
 
   HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
-    const TriangleLanes64 t = load(task.bins.triangles(), indices);
-    const BoxLanes in_area(t.x, t.y, task.area);
+    const auto t = load<G>(task.bins.triangles(), indices);
+    const BoxLanes in_area(t, task.area);
     const Area area = area_of(t);
     for (int i = 0; i < 3; ++i) {
-      const EdgeLanes lanes(t, area, i, sample(in_area.x0), sample(in_area.y0));
+      const EdgeLanes lanes(t, area, i, sample<G>(in_area.x0), sample<G>(in_area.y0));
       hn::StoreU(lanes.value, D64{}, edge[i].first + k);
       store(lanes.a, edge[i].a + k), store(lanes.b, edge[i].b + k);
     }
@@ -50,34 +84,44 @@ struct FrameEdges : FrameBatch {
     const BoxDepth depth(plane(k), in_area);
     for (int x = in_area.x0, end; x < in_area.x1; x = end) {
       end = std::min(in_area.x1, (x & -kDepthCell) + kDepthCell);
-      draw_piece(task, k, {x, in_area.y0, end, in_area.y1}, depth, triangle.payload);
+      const PixelBox piece{x, in_area.y0, end, in_area.y1};
+      if (std::is_same_v<G, Coarse> || is_short(k))
+        draw_piece<ShortEdge>(task, k, piece, depth, triangle.payload);
+      else
+        draw_piece<LongEdge>(task, k, piece, depth, triangle.payload);
     }
   }
 
  private:
+  bool is_short(int k) const {
+    return std::all_of(edge, edge + 3,
+                       [&](const auto& e) { return std::max(std::abs(e.a[k]), std::abs(e.b[k])) <= kShort; });
+  }
   // Draws the part of the triangle's box that lies in one depth cell (rule 6), column by column of vectors.
+  template <class EdgeOfPixels>
   HWY_INLINE void draw_piece(const FrameTask& task, int k, const PixelBox& piece, const BoxDepth& depth,
                              std::uint32_t payload) const {
     const D d;
     const V lane = hn::Iota(d, 0), colour = set(payload), z_right = set(depth.zx), z_down = hn::Set(d, zy[k]);
     const V z_in_cell = set(depth.in_cell(piece.x0, piece.y0)), cell = hn::Set(d, piece.x0 & -kDepthCell);
-    std::int32_t first[3];  // at the piece's first sample
+    std::int64_t first[3];  // at the piece's first sample
     for (int i = 0; i < 3; ++i)
-      first[i] = in_int32(edge[i].first[k] + std::int64_t{edge[i].a[k]} * kSub * (piece.x0 - x0[k]));
+      first[i] = (edge[i].first[k] >> G::kSubBits) + std::int64_t{edge[i].a[k]} * (piece.x0 - x0[k]);
     for (int x = piece.x0; x < piece.x1; x += kLanes) {
       const int at = vector_from(x, task.area.x1);
-      const V px = hn::Add(lane, hn::Set(d, at)), from_first = hn::Sub(px, hn::Set(d, piece.x0));
+      const V px = hn::Add(lane, hn::Set(d, at));
       const auto in_piece = between(x, px, piece.x1);
-      V value[3];
-      for (int i = 0; i < 3; ++i)
-        value[i] = hn::Add(hn::Set(d, first[i]), hn::Mul(from_first, hn::Set(d, edge[i].a[k])));
+      const auto edge_at = [&](int i) {
+        return EdgeOfPixels(first[i], edge[i].a[k], edge[i].b[k], at - piece.x0);
+      };
+      EdgeOfPixels value[3] = {edge_at(0), edge_at(1), edge_at(2)};
       V z = hn::Add(z_in_cell, hn::Mul(hn::Sub(px, cell), z_right));
       FrameRow row(task.frame, piece.y0);
       for (int y = piece.y0; y < piece.y1; ++y) {
-        const V any_negative = hn::Or(hn::Or(value[0], value[1]), value[2]);
+        const V any_negative = hn::Or(hn::Or(value[0].sign(), value[1].sign()), value[2].sign());
         const auto covered = hn::And(in_piece, hn::Gt(any_negative, hn::Set(d, -1)));
         write(row.depth + at, row.payload + at, covered, z, colour);
-        for (int i = 0; i < 3; ++i) value[i] = hn::Add(value[i], hn::Set(d, edge[i].b[k]));
+        for (EdgeOfPixels& v : value) v.next();
         z = hn::Add(z, z_down);
         row.depth += task.frame.stride, row.payload += task.frame.stride;
       }
@@ -86,7 +130,7 @@ struct FrameEdges : FrameBatch {
 };
 
 void draw_edges_in_frame(const FrameTask& task) {
-  draw_in_batches<FrameEdges>(task);
+  task.bins.fine() ? draw_in_batches<FrameEdges<Fine>>(task) : draw_in_batches<FrameEdges<Coarse>>(task);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -62,15 +62,16 @@ HWY_INLINE void fill_spans(const FrameTask& task, const BoxDepth& depth, std::ui
   });
 }
 
+template <class G>
 struct FrameSpans : FrameBatch {
-  BatchLine line[3];
+  BatchLine<G> line[3];
   std::uint32_t flat = 0;  // bit k: triangle k has too flat a line, and its spans are found by integers
 
   HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
-    const TriangleLanes64 t = load(task.bins.triangles(), indices);
-    const BoxLanes in_area(t.x, t.y, task.area);
+    const auto t = load<G>(task.bins.triangles(), indices);
+    const BoxLanes in_area(t, task.area);
     const Area area = area_of(t);
-    flat |= mask_bits(store_lines(t, area, task.area.x0, sample(in_area.y0), line, k)) << k;
+    flat |= mask_bits(store_lines(t, area, task.area.x0, sample<G>(in_area.y0), line, k)) << k;
     return store_vector(t, in_area, area, task.bins.triangles(), indices, k);
   }
 
@@ -86,7 +87,7 @@ struct FrameSpans : FrameBatch {
 };
 
 void draw_spans_in_frame(const FrameTask& task) {
-  draw_in_batches<FrameSpans>(task);
+  task.bins.fine() ? draw_in_batches<FrameSpans<Fine>>(task) : draw_in_batches<FrameSpans<Coarse>>(task);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -47,6 +47,7 @@ struct SpanTile {
 #if HWY_TARGET == HWY_SCALAR
 
 // The scalar target lists no spans.
+template <class G>
 struct SpanList {
   SpanList(SpanTile&, bool) {}
   void draw() {}
@@ -54,11 +55,12 @@ struct SpanList {
 
 #else
 
+template <class G>
 class SpanList {
  public:
   SpanList(SpanTile& tile, bool hierarchical_depth) : tile_(tile), uses_hiz_(hierarchical_depth) {}
 
-  HWY_INLINE void add(const SpanBatch& batch, int k) {
+  HWY_INLINE void add(const SpanBatch<G>& batch, int k) {
     const bool wide = batch.x1[k] - batch.x0[k] > kNarrow;
     if (wide && uses_hiz_ && tile_.hiz.occludes(batch.nearest[k])) return count(Part::hiz);
     count(Part::tile_spans);
@@ -103,8 +105,8 @@ class SpanList {
   static constexpr int kCapacity = 2 * kMostSpans;
 
   // Appends a span for each vector of pixels that a row's span overlaps.
-  HWY_INLINE void add_narrow(const SpanBatch& batch, int k) {
-    RowLanes rows(batch, k, batch.y0[k]);
+  HWY_INLINE void add_narrow(const SpanBatch<G>& batch, int k) {
+    RowLanes<G> rows(batch, k, batch.y0[k]);
     for (int y = batch.y0[k];;) {
       for (int x = batch.x0[k] & -kLanes; x < batch.x1[k]; x += kLanes)
         append(batch, k, rows, hn::Max(rows.begin, set32(x)), hn::Min(rows.end, set32(x + kLanes)));
@@ -114,11 +116,11 @@ class SpanList {
   }
 
   // Draws the blocks that all rows' spans cover at once, after the spans of earlier triangles (rule 7).
-  HWY_INLINE void add_wide(const SpanBatch& batch, int k) {
+  HWY_INLINE void add_wide(const SpanBatch<G>& batch, int k) {
     const D32 d32;
     draw();
     const int first_row = batch.y0[k] & -kRows;
-    RowLanes rows(batch, k, first_row);
+    RowLanes<G> rows(batch, k, first_row);
     for (int y = first_row;;) {
       const int last_begin = hn::GetLane(hn::MaxOfLanes(d32, hn::DupOdd(rows.begin)));
       const int first_end = hn::GetLane(hn::MinOfLanes(d32, hn::DupOdd(rows.end)));
@@ -139,7 +141,7 @@ class SpanList {
   }
 
   // The triangle covers the whole block, so no depth wraps. `z`: depth at the first pixel.
-  HWY_INLINE void draw_block(const SpanBatch& batch, int k, int x, int y, std::int32_t z) {
+  HWY_INLINE void draw_block(const SpanBatch<G>& batch, int k, int x, int y, std::int32_t z) {
     const D d;
     const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
     std::int32_t& hiz = *tile_.hiz.at(x / kSpanBlockWidth, y / kRows);
@@ -163,7 +165,7 @@ class SpanList {
   }
 
   // Appends the non-empty spans [begin, end) of the rows.
-  HWY_INLINE void append(const SpanBatch& batch, int k, const RowLanes& rows, V32 begin, V32 end) {
+  HWY_INLINE void append(const SpanBatch<G>& batch, int k, const RowLanes<G>& rows, V32 begin, V32 end) {
     const D64 d;
     const V32 length = hn::Sub(end, begin), x = hn::And(begin, set32(-kLanes));
     const auto filled = hn::Gt(as64(length), hn::Set(d, 0xFFFFFFFF));

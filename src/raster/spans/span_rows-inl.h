@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "edgewise/contract.h"
 #include "raster/kernels.h"
@@ -26,8 +27,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
 // A batch of triangles, set up for one tile. Rows and pixels are relative to the tile.
+template <class G>
 struct SpanBatch {
-  BatchLine line[3];
+  BatchLine<G> line[3];
   struct {
     std::int32_t first[kBatch];  // at the first pixel of the first row
     std::int32_t x[kBatch], y[kBatch];
@@ -39,15 +41,16 @@ struct SpanBatch {
 };
 
 // Sets up a vector of triangles as entries k … of the batch. Returns the bits of those that are drawn.
-HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
+template <class G>
+HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch<G>& out,
                                        int k) {
-  const TriangleLanes64 t = load(task.bins->triangles(), indices);
-  const BoxLanes box(t.x, t.y, task.box());
+  const auto t = load<G>(task.bins->triangles(), indices);
+  const BoxLanes box(t, task.box());
   const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
   const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));
   const Area area = area_of(t);
-  const auto flat = store_lines(t, area, task.x0, sample(y0, task.y0), out.line, k);
-  const DepthLanes depth = depth_lanes(t, area, task.x0 & -kDepthCell, task.y0 & -kDepthCell);
+  const auto flat = store_lines(t, area, task.x0, sample<G>(y0, task.y0), out.line, k);
+  const DepthLanes<G> depth = depth_lanes(t, area, task.x0 & -kDepthCell, task.y0 & -kDepthCell);
   out.by_integers |= mask_bits(hn::Or(flat, hn::Not(depth.exact))) << k;
   const V32 first = depth.at(set32(task.x0 % kDepthCell), hn::Add(y0, set32(task.y0 % kDepthCell)));
   store(first, out.depth.first + k);
@@ -100,9 +103,10 @@ HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
 #endif
 
 // The ends of the spans of triangle k of a batch, for a vector of rows of the tile from `first_row` on.
+template <class G>
 class RowLanes {
  public:
-  HWY_INLINE RowLanes(const SpanBatch& batch, int k, int first_row)
+  HWY_INLINE RowLanes(const SpanBatch<G>& batch, int k, int first_row)
       : zy_(set32(batch.depth.y[k])),
         first_row_(set32(batch.y0[k])),
         rows_(set32(batch.y1[k] - batch.y0[k])) {
@@ -114,6 +118,12 @@ class RowLanes {
       at_[i] = hn::Add(hn::Set(d, line.at[k]), wrapped_product(step, lower(lane)));
       stride_[i] = hn::ShiftLeft<kRowsLog2>(step);
       is_left_[i] = set32(line.is_left[k]), is_right_[i] = set32(line.is_right[k]);
+      if constexpr (std::is_same_v<G, Fine>) {
+        const V64 first = hn::Set(d, line.value[k] >> G::kSubBits);  // rule 5
+        value_[i] = hn::Add(first, product(set32(line.down[k]), lower(lane)));
+        value_stride_[i] = hn::Set(d, std::int64_t{line.down[k]} * kRows);
+        to_right_[i] = set32(line.to_right[k]);
+      }
     }
     const V32 from_first = lower(hn::ShiftLeft<32>(lane));
     row = hn::Add(first_row_, from_first);
@@ -121,7 +131,10 @@ class RowLanes {
     find_ends();
   }
   HWY_INLINE void next() {
-    for (int i = 0; i < 3; ++i) at_[i] = hn::Add(at_[i], stride_[i]);
+    for (int i = 0; i < 3; ++i) {
+      at_[i] = hn::Add(at_[i], stride_[i]);
+      if constexpr (std::is_same_v<G, Fine>) value_[i] = hn::Add(value_[i], value_stride_[i]);
+    }
     row = hn::Add(row, set32(kRows));
     z = hn::Add(z, hn::ShiftLeft<kRowsLog2>(zy_));
     find_ends();
@@ -134,15 +147,19 @@ class RowLanes {
     const V32 size = set32(kMaxTile);
     begin = hn::Zero(D32{}), end = size;
     for (int i = 0; i < 3; ++i) {
-      const V32 pixel = hn::ShiftRight<kUnitBits - 32>(lower(at_[i]));
+      V32 pixel = hn::ShiftRight<kUnitBits - 32>(lower(at_[i]));
+      if constexpr (std::is_same_v<G, Fine>) {
+        const V64 value = hn::Add(value_[i], product(upper(as64(pixel)), to_right_[i]));
+        pixel = hn::Sub(pixel, hn::ShiftRight<31>(lower(value)));
+      }
       begin = hn::Max(begin, hn::And(pixel, is_left_[i]));
       end = hn::Min(end, hn::IfVecThenElse(is_right_[i], pixel, size));
     }
     const V32 from_first = hn::Sub(row, first_row_);
     end = hn::IfThenElseZero(hn::And(hn::Gt(from_first, set32(-1)), hn::Lt(from_first, rows_)), end);
   }
-  V64 at_[3], stride_[3];
-  V32 is_left_[3], is_right_[3], zy_, first_row_, rows_;
+  V64 at_[3], stride_[3], value_[3], value_stride_[3];
+  V32 is_left_[3], is_right_[3], to_right_[3], zy_, first_row_, rows_;
 };
 
 #endif

@@ -35,6 +35,7 @@ void read_rows(const FramePlane& from, std::int32_t* buffer) {
 }
 
 // Draws triangles and coverage masks into a tile, in the order of its calls.
+template <class G>
 class SpanPainter {
  public:
   explicit SpanPainter(const TileTask& task)
@@ -102,10 +103,10 @@ class SpanPainter {
 
   const TileTask& task_;
   SpanTile tile_;
-  SpanList list_;
+  SpanList<G> list_;
   Bins::MaskReader masks_;
   DrawMasks draw_masks_{*this};
-  SpanBatch batch_;
+  SpanBatch<G> batch_;
 };
 
 template <typename Pixels>
@@ -126,13 +127,18 @@ void write_rows(const FramePlane& to, const Pixels& pixels) {
 
 }  // namespace
 
-void draw_spans_in_tile(const TileTask& task) {
-  SpanPainter painter(task);
+template <class G>
+void draw_spans_on_grid(const TileTask& task) {
+  SpanPainter<G> painter(task);
   task.bins->for_each_segment(task.cell, [&](const Bins::Segment& segment) { painter.draw(segment); });
   painter.draw_rest();
   write_tile(task, painter.depth(), painter.payload(),
              [](const FramePlane& to, const auto& pixels) { write_rows(to, pixels); });
   clear_upper_halves();
+}
+
+void draw_spans_in_tile(const TileTask& task) {
+  task.bins->fine() ? draw_spans_on_grid<Fine>(task) : draw_spans_on_grid<Coarse>(task);
 }
 
 }  // namespace HWY_NAMESPACE
