@@ -217,8 +217,7 @@ class ClipErrors {
         of.add({v.x, v.y, depth_scale * (v.w - least_w_), v.w});
       }
     } else {
-      for (const glm::vec3 v : std::get<TriangleStream>(drawable_).triangles[t.id].vertex)
-        of.add({v.x, v.y, v.z, 1.0f});
+      for (const glm::dvec3 v : std::get<TriangleStream>(drawable_).at(t.id).vertex) of.add({v, 1.0});
     }
     double largest_px = 0.0;
     for (int i = 0; i < 3; ++i)
