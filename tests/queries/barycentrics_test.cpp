@@ -567,7 +567,7 @@ TEST(Barycentrics, RejectsWhatDoesNotFit) {
     const auto on_threads = [&](auto&& change) {
       return message([&](Call& c) { c.execution.threads = threads, change(c); });
     };
-    constexpr const char* kElsewhere = " has id 0, of a triangle that does not cover it";
+    constexpr const char* kElsewhere = " has id 0, of a triangle that does not cover it at its depth";
     EXPECT_EQ(on_threads([&](Call& c) { scene(c).camera.yaw = 2.0f; }), "pixel " + first + kElsewhere);
     EXPECT_EQ(on_threads([&](Call& c) { c.options.cull = Cull::front; }), "pixel " + first + kElsewhere);
     EXPECT_EQ(on_threads([&](Call& c) { scene(c).meshes[0].positions.resize(2); }),
