@@ -26,7 +26,8 @@ namespace edgewise {
 TriangleStream read_tri(const std::filesystem::path& path);
 
 // Writes TRI1, or TRI2 if the stream has `exact` triangles. Throws std::invalid_argument for a stream that
-// read_tri would reject. A failed write sets the error state of `out`, and throws if `out` is set to throw.
+// read_tri would reject, or with triangles of both kinds. A failed write sets the error state of `out`, and
+// throws if `out` is set to throw.
 void write_tri(std::ostream& out, const TriangleStream& stream);
 
 }  // namespace edgewise

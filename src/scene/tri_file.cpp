@@ -97,14 +97,16 @@ void write_tri(std::ostream& out, const TriangleStream& stream) {
   if (!is_side(width) || !is_side(height))
     throw std::invalid_argument("a stream's image size is out of range");
   const std::size_t count = stream.size();
+  const bool exact = !stream.exact.empty();
+  if (exact && !stream.triangles.empty())
+    throw std::invalid_argument("a .tri file holds triangles in float or in double, not both");
   if (count > kMaxTriangles)
     throw std::invalid_argument("a .tri file holds at most " + std::to_string(kMaxTriangles) + " triangles");
 
-  const Header header{stream.exact.empty() ? kTri1 : kTri2, width, height, static_cast<std::uint32_t>(count)};
+  const Header header{exact ? kTri2 : kTri1, width, height, static_cast<std::uint32_t>(count)};
   write_words(out, std::as_bytes(std::span(header)));
-  if (stream.exact.empty()) return write_words(out, std::as_bytes(std::span(stream.triangles)));
-  for (std::size_t i = 0; i < count; ++i) {
-    const ExactStreamTriangle t = stream.at(i);
+  write_words(out, std::as_bytes(std::span(stream.triangles)));
+  for (const ExactStreamTriangle& t : stream.exact) {
     write_words(out, std::as_bytes(std::span(t.vertex)), sizeof(double));
     write_words(out, std::as_bytes(std::span(&t.colour, 1)));
   }

@@ -70,7 +70,7 @@ TEST(TriFile, LayoutIsAsDocumented) {
 
 TEST(TriFile, DoublesAreWrittenAsDocumentedAndKeepEveryBit) {
   const TempDir dir;
-  TriangleStream stream{3, 2, {{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, rgb(1, 2, 3)}}};
+  TriangleStream stream{3, 2, {}, {{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, rgb(1, 2, 3)}}};
   const double values[] = {10 + 0x1p-40, 1e300, -0.0, 0x1p-1074, std::nan("7"), -1.0 / 3, 16, 17, 18};
   ExactStreamTriangle& exact = stream.exact.emplace_back(ExactStreamTriangle{{}, 0x80FF1234u});
   std::copy_n(values, 9, &exact.vertex[0].x);
@@ -91,6 +91,9 @@ TEST(TriFile, DoublesAreWrittenAsDocumentedAndKeepEveryBit) {
   EXPECT_EQ(std::memcmp(back.exact[1].vertex, values, sizeof values), 0);
   EXPECT_EQ(back.at(1).colour, exact.colour);
   EXPECT_EQ(tri_text(back), expected);
+  stream.triangles.emplace_back();
+  EXPECT_EQ(message_of([&] { tri_text(stream); }),
+            "a .tri file holds triangles in float or in double, not both");
 }
 
 using Rows = std::vector<std::pair<std::string, std::string>>;  // content and message
