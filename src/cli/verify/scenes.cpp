@@ -24,6 +24,7 @@ Shot load(const VerifyPlan& plan, const std::string& name, std::optional<Size> s
   options.size = size;
   options.scale = scale;
   options.fit = plan.fit;
+  options.subpixel_bits = plan.subpixel_bits;
   return load_shot(name, options, 0.0);
 }
 
