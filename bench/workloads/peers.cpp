@@ -175,10 +175,11 @@ double float_plane_error(const ScreenTriangle& t, int width, int height) {
   const Oriented o = orient(t);
   const auto [low, high] = std::minmax({o.z[0], o.z[1], o.z[2]});
   const auto length_px = [](const std::int32_t(&v)[3]) {
-    return static_cast<double>(std::abs(v[1] - v[0]) + std::abs(v[2] - v[0])) / kSub;
+    return (static_cast<double>(std::abs(v[1] - v[0])) + std::abs(v[2] - v[0])) / kPixel_q15;
   };
   return lab::float_plane_error(static_cast<double>(high), static_cast<double>(high - low), length_px(o.x),
-                                length_px(o.y), static_cast<double>(o.area) / (kSub * kSub), width, height);
+                                length_px(o.y), static_cast<double>(o.area) / (kPixel_q15 * kPixel_q15),
+                                width, height);
 }
 
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,

@@ -75,8 +75,8 @@ class SnappedTruth {
   Ball depth_estimate(int px, int py) const;
 
   const FillRule& rule() const { return rule_; }
-  double x_px(int vertex) const { return triangle_.x_sub[vertex] / 256.0; }
-  double y_px(int vertex) const { return triangle_.y_sub[vertex] / 256.0; }
+  double x_px(int vertex) const { return triangle_.x_q15[vertex] / 32768.0; }
+  double y_px(int vertex) const { return triangle_.y_q15[vertex] / 32768.0; }
 
  private:
   ScreenTriangle triangle_;
