@@ -276,8 +276,10 @@ TEST(Portable, WitnessesFindAMaskThatIsTooSmall) {
   EXPECT_GT(witnesses_disagree(6, {.subpixel_bits = 8}, 300).outside, 0u);
 }
 
+class PortableBits : public ::testing::TestWithParam<int> {};
+
 // Of meshes, our own picture too must lie within the model.
-TEST(Portable, OursIsTheReferenceOfMeshes) {
+TEST_P(PortableBits, OursIsTheReferenceOfMeshes) {
   // Far from the mesh's origin, floats give distances and depths of few digits.
   constexpr std::pair<const char*, float> kScenes[] = {
       {"cube", 0}, {"cubes", 0}, {"cubes", 1000}, {"torus-knot", 0}, {"terrain", 0}};
@@ -290,9 +292,10 @@ TEST(Portable, OursIsTheReferenceOfMeshes) {
       scene.camera.position += shift;
     }
     const Drawable drawable = scene;
-    FrontendOptions options{request.width, request.height};
+    FrontendOptions options{.width = request.width, .height = request.height, .subpixel_bits = GetParam()};
     const auto triangles = portable_triangles(drawable, options);
-    const PortablePixels mask = portable_pixels(triangles, options.width, options.height, {}, 2);
+    const PortablePixels mask =
+        portable_pixels(triangles, options.width, options.height, {.subpixel_bits = GetParam()}, 2);
     options.payload = Payload::id;
     Frontend frontend;
     Framebuffer ours(options.width, options.height);
@@ -316,6 +319,9 @@ TEST(Portable, OursIsTheReferenceOfMeshes) {
     EXPECT_LE(differ, exact.size() / 100) << name;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Subpixel, PortableBits, ::testing::Values(8, 12, kMaxSubpixelBits),
+                         [](const auto& p) { return std::to_string(p.param); });
 
 }  // namespace
 }  // namespace edgewise::lab

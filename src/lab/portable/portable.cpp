@@ -194,6 +194,13 @@ void check(std::span<const PortableTriangle> triangles, int width, int height, c
         throw std::invalid_argument("coordinates must lie within 2^20 px");
 }
 
+double largest_px(const UnsnappedTriangle& t) {
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i)
+    largest = std::max({largest, std::abs(double{t.x_px[i]}), std::abs(double{t.y_px[i]})});
+  return largest;
+}
+
 // The errors of vertices that clipping made. A coordinate c of such a vertex is interpolated from vertices a
 // and b, with an error of at most kClipError max(|a|, |b|), and then divided by w, which errs as much.
 class ClipErrors {
@@ -219,10 +226,7 @@ class ClipErrors {
     } else {
       for (const glm::dvec3 v : std::get<TriangleStream>(drawable_).at(t.id).vertex) of.add({v, 1.0});
     }
-    double largest_px = 0.0;
-    for (int i = 0; i < 3; ++i)
-      largest_px = std::max({largest_px, std::abs(double{t.at.x_px[i]}), std::abs(double{t.at.y_px[i]})});
-    t.position_error_px = kClipError * (of.position + largest_px * of.w) / least_w_;
+    t.position_error_px = kClipError * (of.position + largest_px(t.at) * of.w) / least_w_;
     t.depth_error = kClipError * (of.depth + of.w) / least_w_;
   }
 
@@ -304,6 +308,8 @@ std::vector<PortableTriangle> portable_triangles(const Drawable& drawable, Front
   options.keep_unsnapped = options.keep_states = true;
   const auto triangles = frontend.run(drawable, options);
   ClipErrors clip_errors(drawable, options);
+  const auto* stream = std::get_if<TriangleStream>(&drawable);
+  const bool in_double = options.subpixel_bits > 8 || (stream != nullptr && !stream->exact.empty());
   std::vector<PortableTriangle> result;
   result.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -312,6 +318,7 @@ std::vector<PortableTriangle> portable_triangles(const Drawable& drawable, Front
                        frontend.states()[id] == TriangleState::clipped};
     t.clipped = t.clipped || touches_near(t.at) || touches_far(t.at);
     if (t.clipped) clip_errors.add_to(t);
+    if (in_double) t.position_error_px += ulp_of(std::max(1.0, largest_px(t.at))) / 2;  // rounded to floats
     // Our depth comes from the view distance, not from z / w.
     for (int k = 0; k < 3; ++k)
       t.depth_error =
