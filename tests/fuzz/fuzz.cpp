@@ -150,7 +150,7 @@ void check_frontend(const Drawable& drawable, int width, int height) {
   make_clusters(in_clusters);
   static Frontend scalar, vectors;  // reused for all inputs, as programs reuse them for all frames
   options.shade = std::holds_alternative<Scene>(drawable);
-  for (const auto [cull, bits] :
+  for (const auto& [cull, bits] :
        {std::pair{Cull::none, 8}, {Cull::back, 8}, {Cull::none, kMaxSubpixelBits}}) {
     options.cull = cull, options.subpixel_bits = bits;
     const auto expected = run(scalar, drawable, options, SimdTarget::scalar);
