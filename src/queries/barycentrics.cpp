@@ -95,6 +95,7 @@ class Triangles {
       : options_(options), target_(target), scene_(std::get_if<Scene>(&drawable)) {
     if (scene_ == nullptr) {
       stream_ = &std::get<TriangleStream>(drawable);
+      check(*stream_);
       count_ = checked_count(stream_->size(), options.first_id);
       return;
     }
@@ -148,12 +149,13 @@ class Triangles {
       const Scene& scene = *all_.scene_;
       const Instance& instance = scene.instances[index];
       const Mesh& mesh = scene.meshes[instance.mesh];
-      task_.emplace(MeshTask{.options = all_.options_,
-                             .mesh = mesh,
-                             .view = all_.view_->volume,
-                             .to_screen = {*all_.view_, model_matrix(mesh, instance)},
-                             .depth = all_.view_->depth,
-                             .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
+      task_.emplace(MeshTask{
+          .options = all_.options_,
+          .mesh = mesh,
+          .view = all_.view_->volume,
+          .to_screen = {*all_.view_, model_matrix(mesh, instance), is_fine(all_.options_.subpixel_bits)},
+          .depth = all_.view_->depth,
+          .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
     }
 
     const Triangles& all_;
