@@ -117,6 +117,7 @@ FrontendOptions frontend_options(const edgewise_options& options, const edgewise
     throw std::invalid_argument("cull is none of EDGEWISE_CULL_NONE to EDGEWISE_CULL_BOTH");
   FrontendOptions o;
   o.width = frame.width, o.height = frame.height;
+  o.subpixel_bits = options.subpixel_bits;
   o.cull = kCull[options.cull];
   o.shade = options.unlit == 0;
   o.payload = options.ids != 0 ? Payload::id : Payload::colour;
@@ -286,6 +287,7 @@ edgewise_options edgewise_default_options(void) {
   options.threads = 1;
   options.background = 0xFF000000;
   options.scissor[2] = options.scissor[3] = contract::kMaxImageSide;
+  options.subpixel_bits = FrontendOptions().subpixel_bits;
   return options;
 }
 

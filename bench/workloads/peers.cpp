@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "core/grid.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
 #include "lab/portable/portable.h"
@@ -95,11 +94,14 @@ std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
 
 // Positions are rounded as the front end does: peers may compute depth planes from positions before rounding,
 // and those of slivers would differ.
-PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t> payloads) {
+PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t> payloads,
+                     int subpixel_bits) {
   PeerMesh mesh;
-  const auto rounded = [](float px) { return std::nearbyint(px * Coarse::kSub) / Coarse::kSub; };
-  for (std::size_t i = 0; i < stream.triangles.size(); ++i)
-    for (const glm::vec3 vertex : stream.triangles[i].vertex) {
+  const auto rounded = [=](double px) {
+    return std::ldexp(std::nearbyint(std::ldexp(px, subpixel_bits)), -subpixel_bits);
+  };
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    for (const glm::dvec3 vertex : stream.at(i).vertex) {
       mesh.positions.emplace_back(rounded(vertex.x), rounded(vertex.y), vertex.z);
       mesh.payloads.push_back(payloads[i]);
     }
@@ -108,7 +110,7 @@ PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t
 
 }  // namespace
 
-PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
+PeerScene peer_scene(const Workload& workload, PeerPayload payload, int subpixel_bits) {
   PeerScene result;
   result.width = workload.width();
   result.height = workload.height();
@@ -118,7 +120,8 @@ PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
   if (const auto* scene = std::get_if<Scene>(&workload.drawable()))
     result.meshes = scene_meshes(*scene, workload, payloads);
   else
-    result.meshes.push_back(stream_mesh(std::get<TriangleStream>(workload.drawable()), payloads));
+    result.meshes.push_back(
+        stream_mesh(std::get<TriangleStream>(workload.drawable()), payloads, subpixel_bits));
   return result;
 }
 
@@ -226,12 +229,14 @@ Framebuffer picture_of_ids(const Workload& workload, std::span<const ScreenTrian
 
 PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
                                  int subpixel_bits) {
-  const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload));
+  FrontendOptions options = workload.frontend_options();
+  options.subpixel_bits = std::max(options.subpixel_bits, subpixel_bits);
+  options.payload = Payload::id;
+  Frontend frontend;
+  const Framebuffer ours = picture_of_ids(workload, frontend.run(workload.drawable(), options));
   const auto mask = lab::portable_pixels(
-      lab::portable_triangles(workload.drawable(), workload.frontend_options()), ours.width(), ours.height(),
-      {.subpixel_bits = std::min(subpixel_bits, Coarse::kSubBits),
-       .depth = lab::find_depth_format("d32_sfloat")},
-      2);
+      lab::portable_triangles(workload.drawable(), options), ours.width(), ours.height(),
+      {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
   PortableJudgement result;
   std::size_t i = 0;
   for (int y = 0; y < ours.height(); ++y)
@@ -246,8 +251,10 @@ PortableJudgement judge_portable(const Workload& workload, std::span<const std::
 
 void PeerStage::compare(Row& row) {
   const Workload& workload = *row.workload;
+  const int bits = workload.frontend_options().subpixel_bits, peer_bits = row.peer->subpixel_bits();
   const auto load = [&](PeerPayload payload) {
-    auto frame = row.peer->load(peer_scene(workload, payload), row.execution.threads);
+    auto frame =
+        row.peer->load(peer_scene(workload, payload, std::max(bits, peer_bits)), row.execution.threads);
     frame->draw();
     return frame;
   };
@@ -257,7 +264,7 @@ void PeerStage::compare(Row& row) {
   const auto their_ids = load(PeerPayload::id)->read();
   auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
 
-  if (row.peer->exact) {
+  if (row.peer->exact && bits == peer_bits) {
     const PeerJudgement judgement = judge(ours, their_ids, triangles);
     row.depth_ties = judgement.depth_ties;
     if (judgement.wrong() != 0)
@@ -266,7 +273,7 @@ void PeerStage::compare(Row& row) {
           "{})",
           judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
   } else {
-    const PortableJudgement judgement = judge_portable(workload, their_ids, row.peer->subpixel_bits());
+    const PortableJudgement judgement = judge_portable(workload, their_ids, peer_bits);
     row.wrong_px = judgement.different;
     if (judgement.wrong != 0)
       row.error = fmt::format("{} pixels show another triangle although they are portable", judgement.wrong);

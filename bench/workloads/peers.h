@@ -22,8 +22,8 @@ enum class PeerPayload {
 };
 
 // The scene's meshes with their matrices, which the peer transforms, culls and clips, or a stream's
-// triangles. The stream's positions are rounded to 1/256 px.
-PeerScene peer_scene(const Workload& workload, PeerPayload payload);
+// triangles. The stream's positions are rounded to so many subpixel bits.
+PeerScene peer_scene(const Workload& workload, PeerPayload payload, int subpixel_bits = 8);
 
 // The front end's triangles with ids as payloads. An id numbers the submitted triangles; the pieces of a
 // clipped triangle share its id.
@@ -51,7 +51,8 @@ PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> thei
                     std::span<const ScreenTriangle> triangles);
 
 // The pixels in which a picture of triangle ids differs from ours, and those of them that `portable` says are
-// the same in every picture of a rasterizer with so many subpixel bits and a float depth buffer.
+// the same in every picture of a rasterizer with so many subpixel bits and a float depth buffer. Ours has at
+// least as many.
 struct PortableJudgement {
   std::uint64_t different = 0, wrong = 0, tie = 0;  // tie: those in the mask for a tie alone
 };

@@ -35,6 +35,9 @@ class Workload {
   const Framebuffer& reference();
   void drop_reference() { reference_.reset(); }
 
+  // Before prepare(); 8 otherwise.
+  void set_subpixel_bits(int bits) { subpixel_bits_ = bits; }
+
   // Counted by the first call.
   const BlockCounts& blocks();
 
@@ -59,7 +62,7 @@ class Workload {
   Framebuffer drawn() const;
   void drop_hidden(Frontend& frontend);
 
-  int width_, height_;
+  int width_, height_, subpixel_bits_ = FrontendOptions().subpixel_bits;
   Cull mesh_cull_;
   const lab::FacingMethod* facing_;
   std::function<tools::Source()> load_;

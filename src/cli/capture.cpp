@@ -53,7 +53,8 @@ constexpr const char* kCaptureFooter = R"(Examples:
 The stream holds the triangles that remain after transformation, clipping, culling and shading. The
 file is little-endian: "TRI1", uint32 width, height, count; then for each triangle nine float32
 (x, y, z of three vertices: pixels, y down, z in [0, 1], smaller is nearer) and a uint32 colour, R
-in the lowest byte.)";
+in the lowest byte. Where floats would round a position, as with 15 subpixel bits beyond 512 pixels,
+the file starts with "TRI2" and has nine float64 instead. Draw it with the same --subpixel-bits.)";
 
 }  // namespace
 
@@ -62,6 +63,7 @@ Action add_capture(CLI::App& command) {
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file")->required();
   add_text(command, "-o,--output", "FILE", o->output, "Stream file, .tri; - for stdout")->required();
   o->options.add_to(command);
+  add_subpixel_bits(command, o->options.subpixel_bits);
   command.footer(kCaptureFooter);
   return [o] { return capture(*o); };
 }

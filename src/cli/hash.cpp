@@ -107,6 +107,7 @@ Action add_hash(CLI::App& command) {
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files (all built-in)");
   add_text(command, "--backend", "NAME", o->backend, "Backend of `edgewise list --all` (tiled)");
   o->scene.add_to(command);
+  add_subpixel_bits(command, o->scene.subpixel_bits);
   o->execution.add_to(command);
   o->motion.add_to(command);
   command.add_flag("--json", o->json, "Print JSON");

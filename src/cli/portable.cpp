@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,8 +12,6 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "core/grid.h"
-#include "edgewise/contract.h"
 #include "edgewise/draw.h"
 #include "files/pictures.h"
 #include "lab/portable/portable.h"
@@ -52,11 +51,8 @@ Image mask_of(const lab::PortablePixels& found) {
 // "N" or "N-M". Positions rounded to more bits than the fewest are within their step, too.
 int fewest_bits(const std::string& text) {
   const auto dash = text.find('-', 1);
-  const int fewest = parse_number("--bits", text.substr(0, dash), 1, 16);
-  if (fewest > Coarse::kSubBits)
-    throw std::invalid_argument(
-        fmt::format("--bits: at most {}, the subpixel bits that the library draws", Coarse::kSubBits));
-  if (dash != std::string::npos) parse_number("--bits", text.substr(dash + 1), fewest, 16);
+  const int fewest = parse_number("--bits", text.substr(0, dash), 1, kMaxSubpixelBits);
+  if (dash != std::string::npos) parse_number("--bits", text.substr(dash + 1), fewest, kMaxSubpixelBits);
   return fewest;
 }
 
@@ -165,6 +161,7 @@ Two rasterizers that follow Direct3D, Vulkan or WebGPU may draw some pixels diff
 are rounded, and so are depths. Outside the mask all of them show the same triangle, whatever their
 rounding. The mask is conservative: some of its pixels are the same everywhere, too. It
 compares triangles, not colours: where two triangles of one colour meet, pictures may be equal.
+The reference picture has as many subpixel bits as --bits says, or 8 if that is more.
 
 --depth d32_sfloat also holds for reversed Z: a float depth buffer that is cleared to 0.
 
@@ -200,6 +197,7 @@ Action add_portable(CLI::App& command) {
   command.add_flag("--json", o->json, "Print one JSON object per scene, one per line");
   command.footer(kPortableFooter);
   return [o] {
+    o->scene.subpixel_bits = std::max(o->scene.subpixel_bits, o->model.subpixel_bits);
     PortableCommand(*o).run();
     return kDone;
   };

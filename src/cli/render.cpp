@@ -186,6 +186,7 @@ class Renderer {
                         {"height", p.frontend.height},
                         {"cull", name_of(p.frontend.cull)},
                         {"shade", p.frontend.shade},
+                        {"subpixel_bits", p.frontend.subpixel_bits},
                         {"threads", options_.execution.execution.threads},
                         {"simd_target", name_of(resolve(options_.execution.execution.target))},
                         {"time_s", p.time},
@@ -252,6 +253,7 @@ Action add_render(CLI::App& command) {
   add_parsed(command, "--payload", "KIND", "Pixel values: colour, id or hits (colour)",
              [o](const std::string& text) { o->pixel_kind = parse_pixel_kind(text); });
   o->scene.add_to(command);
+  add_subpixel_bits(command, o->scene.subpixel_bits);
   o->execution.add_to(command);
   o->motion.add_to(command);
   command.add_flag("--json", o->json, "Print one JSON object per picture, one per line");

@@ -310,6 +310,7 @@ Action add_view(CLI::App& command, viewer::ShowWindow show_window) {
   add_format(command, o->format, {Format::png, Format::ppm});
   add_text(command, "--save-to", "DIR", o->folder, "Folder for files saved with p (.)");
   o->options.add_to(command);
+  add_subpixel_bits(command, o->options.subpixel_bits);
   o->execution.add_to(command);
   command.footer(view_footer());
   return [o, show_window] { return view(*o, show_window); };

@@ -40,19 +40,20 @@ struct BarycentricsView {
 // is 1 to 2 in usual views. Rule 11 has e for matrices, scaled instances and clipped triangles.
 //
 // `ids` is a frame of `drawable` alone, drawn with `options`, where payload is Payload::id. A pixel is
-// background if its depth is contract::kDepthClear; other depths do not count. So if the frame shows several
-// draws, pass a copy of its depths in which the pixels of the others are background. Each thread keeps less
-// than 1 MB until the call ends. A pixel costs three edge functions, nine products and three divisions, in
-// doubles. A visible triangle is also transformed again, once or a few times; with triangles of a few pixels,
-// this costs more.
+// background if its depth is contract::kDepthClear. Any other depth must be its triangle's, which tells frames
+// with other subpixel bits. If the frame shows several draws, pass a copy of its depths in which the pixels of
+// the others are background. Each thread keeps less than 1 MB until the call ends. A pixel costs three edge
+// functions, nine products and three divisions, in doubles. A visible triangle is also transformed again, once
+// or a few times; with triangles of a few pixels, this costs more.
 //
 // Throws std::invalid_argument
 // - for planes that cannot be read or written, or that overlap in memory, for options of another size than
 //   the frame or another payload than ids, for a camera, a number of subpixel bits, an instance's mesh index
 //   or matrix, a number of triangles, a first id or an execution that Frontend::run() throws for, and for
 //   flags that are neither empty nor one per triangle. Then nothing has been written.
-// - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
-//   frame shows something else. Then the content of the planes is undefined, as it is after std::bad_alloc.
+// - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel at its
+//   depth: the frame shows something else, or has other subpixel bits. Then the content of the planes is
+//   undefined, as it is after std::bad_alloc.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
                   const BarycentricsView& out, const Execution& execution = {});
 

@@ -32,7 +32,7 @@
 #include <stdint.h>
 
 /* Raised when a function or a struct changes so that programs must be compiled anew. */
-#define EDGEWISE_ABI 2
+#define EDGEWISE_ABI 3
 
 #pragma GCC visibility push(default) /* what a shared library exports */
 #ifdef __cplusplus
@@ -174,10 +174,11 @@ typedef struct edgewise_options {
   int threads;       /* 1 ... 256: at most so many, and at most as many as oneTBB's limit for the process */
   int keep; /* if not 0, draws over what the frame holds, where no depth may exceed EDGEWISE_DEPTH_CLEAR */
   uint32_t background; /* the payload where no triangle is visible, unless `keep` */
-  int scissor[4]; /* x, y, width, height: the only pixels that are drawn; the others keep what they hold */
+  int scissor[4];    /* x, y, width, height: the only pixels that are drawn; the others keep what they hold */
+  int subpixel_bits; /* 4 ... 15: x and y of vertices are rounded to 2^-subpixel_bits px */
 } edgewise_options;
 
-/* No culling, lit colours, one thread, a frame that is cleared to black, no scissor. */
+/* No culling, lit colours, one thread, a frame that is cleared to black, no scissor, 8 subpixel bits. */
 edgewise_options edgewise_default_options(void);
 
 /* Draws a frame. `options` may be null: the default. With `keep`, draws add up as if they were one, ids
@@ -197,7 +198,7 @@ typedef struct edgewise_stats {
   uint64_t clipped, clipped_near, clipped_far, clipped_guard;
   uint64_t pieces;    /* triangles after clipping */
   uint64_t culled;    /* pieces dropped for their facing */
-  uint64_t zero_area; /* pieces dropped: no area once rounded to 1/256 px */
+  uint64_t zero_area; /* pieces dropped: no area once vertices are rounded */
   uint64_t emitted;   /* pieces drawn */
 } edgewise_stats;
 
@@ -241,8 +242,8 @@ edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double l
  * it is 0, and usually it is below 2^-19.
  * Planes must overlap neither each other nor the frame. Strides are in floats, from row to row. `ids` must
  * show this scene alone, drawn with these options, which must not be null and must ask for ids; the scissor
- * does not count. If it shows several, pass a copy of its depths in which the pixels of the others are
- * EDGEWISE_DEPTH_CLEAR. */
+ * does not count. So if subpixel_bits are not those of the draw, it fails. If the frame shows several, pass a
+ * copy of its depths in which the pixels of the others are EDGEWISE_DEPTH_CLEAR. */
 edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride);

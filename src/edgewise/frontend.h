@@ -66,8 +66,9 @@ struct FrontendOptions {
   bool keep_states = false;  // records the TriangleState of each triangle; slower, same triangles
 };
 
-// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. A scene's z01 is the
-// float z / w that most renderers use. ScreenTriangle::z is finer: it does not come from z01 (rule 6).
+// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. What doubles
+// computed is rounded to float here: more than 8 subpixel bits, and new vertices. A scene's z01 is the float
+// z / w that most renderers use. ScreenTriangle::z is finer: it does not come from z01 (rule 6).
 struct UnsnappedTriangle {
   float x_px[3], y_px[3], z01[3];
 };
@@ -118,6 +119,7 @@ class Frontend {
   //
   // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
   // - a camera, image size or number of subpixel bits out of range, or matrices that camera.h excludes,
+  // - a stream with triangles in float and in double,
   // - an instance whose mesh index the scene lacks, or whose matrix is not finite and affine,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,

@@ -130,7 +130,7 @@ struct StreamTriangle {
 };
 static_assert(sizeof(StreamTriangle) == 40);
 
-// The same, for coordinates that floats would round.
+// The same in double. Floats hold positions of 15 subpixel bits only up to 512 px.
 struct ExactStreamTriangle {
   glm::dvec3 vertex[3];
   std::uint32_t colour;
@@ -139,12 +139,12 @@ struct ExactStreamTriangle {
 struct TriangleStream {
   int width = 0, height = 0;  // px; the image size that the stream was made for
   std::vector<StreamTriangle> triangles;
-  std::vector<ExactStreamTriangle> exact{};  // submitted after `triangles`
+  std::vector<ExactStreamTriangle> exact{};  // in place of `triangles`: one of the two is empty
 
   std::size_t size() const { return triangles.size() + exact.size(); }
-  // A triangle by its number in submission order, which must be below size().
+  // Triangle i < size(), from the list that is not empty.
   ExactStreamTriangle at(std::size_t i) const {
-    if (i >= triangles.size()) return exact[i - triangles.size()];
+    if (triangles.empty()) return exact[i];
     const auto& [v, colour] = triangles[i];
     return {{glm::dvec3(v[0]), glm::dvec3(v[1]), glm::dvec3(v[2])}, colour};
   }

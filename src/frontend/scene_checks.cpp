@@ -25,6 +25,11 @@ void check_subpixel_bits(int bits) {
                                 std::to_string(kMinSubpixelBits) + " to " + std::to_string(kMaxSubpixelBits));
 }
 
+void check(const TriangleStream& stream) {
+  if (!stream.triangles.empty() && !stream.exact.empty())
+    throw std::invalid_argument("a stream has triangles in float and in double");
+}
+
 const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
   if (instance.mesh >= scene.meshes.size())
     throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +

@@ -14,6 +14,8 @@ std::size_t checked_count(std::size_t triangles, std::uint32_t first_id = 0);
 
 // FrontendOptions::subpixel_bits.
 void check_subpixel_bits(int bits);
+// One of its two lists is empty.
+void check(const TriangleStream& stream);
 
 const Mesh& mesh_of(const Scene& scene, const Instance& instance);
 

@@ -8,8 +8,9 @@
 
 namespace edgewise::lab {
 
-// Floats represent snapped positions exactly. Depths are rounded to floats in [0, 1], by at most 64 units.
-// Those that came from such floats become the same depths again.
+// Positions are kept exactly: in float, or all in double if a float would round one. Depths are rounded to
+// floats in [0, 1], by at most 64 units; those that came from such floats become the same depths again. In
+// double, all do.
 TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, int height);
 
 }  // namespace edgewise::lab

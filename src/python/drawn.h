@@ -37,9 +37,9 @@ inline Cull cull_of(std::string_view name) {
   return find_named("culling mode", name, cull_modes(), [](Cull cull) { return name_of(cull); });
 }
 
-inline FrontendOptions options_of(int width, int height, std::string_view cull) {
+inline FrontendOptions options_of(int width, int height, std::string_view cull, int subpixel_bits = 8) {
   FrontendOptions options;
-  options.width = width, options.height = height;
+  options.width = width, options.height = height, options.subpixel_bits = subpixel_bits;
   options.cull = cull_of(cull);
   options.payload = Payload::id;
   return options;
@@ -132,11 +132,12 @@ class Drawn {
   // Returns the counts of edgewise.Stats by name, summed over the views.
   py::dict draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
                 const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull,
-                int threads, bool shade, const std::string& backend, std::uint32_t background, bool clear,
-                const std::optional<std::array<int, 4>>& scissor, const py::object& progress) {
+                int subpixel_bits, int threads, bool shade, const std::string& backend,
+                std::uint32_t background, bool clear, const std::optional<std::array<int, 4>>& scissor,
+                const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, true);
-    FrontendOptions options = options_of(frames.width, frames.height, cull);
+    FrontendOptions options = options_of(frames.width, frames.height, cull, subpixel_bits);
     options.payload = ids ? Payload::id : Payload::colour;
     options.first_id = first_id;
     options.shade = shade;
@@ -156,11 +157,11 @@ class Drawn {
 
   py::tuple barycentrics(const Matrix& views, const Matrix& projections,
                          const std::optional<py::array>& payload, const py::array& depth,
-                         std::uint32_t first_id, const std::string& cull, int threads,
+                         std::uint32_t first_id, const std::string& cull, int subpixel_bits, int threads,
                          const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, false);
-    FrontendOptions options = options_of(frames.width, frames.height, cull);
+    FrontendOptions options = options_of(frames.width, frames.height, cull, subpixel_bits);
     options.first_id = first_id;
     Floats uv(frames.shape({frames.height, frames.width, 2})),
         distance(frames.shape({frames.height, frames.width}));

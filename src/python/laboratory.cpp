@@ -76,7 +76,7 @@ Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& pro
                              const std::string& depth, int threads) {
   const lab::Conformance model{bits, ulps, guard_band, lab::find_depth_format(depth)};
   const auto cameras = cameras_of(views, projections);
-  const FrontendOptions options = options_of(width, height, cull);
+  const FrontendOptions options = options_of(width, height, cull, std::clamp(bits, 8, kMaxSubpixelBits));
   checked({.threads = threads});
   lab::PortablePixels found{};
   self.for_each_view(cameras, 1, [&](const Drawable& drawable, std::size_t) {

@@ -35,7 +35,7 @@ std::unique_ptr<Drawn> drawn(Drawable drawable) {
 
 std::vector<std::size_t> first_ids_of(const Drawable& drawable) {
   if (const auto* const scene = std::get_if<Scene>(&drawable)) return first_ids(*scene);
-  return {0, std::get<TriangleStream>(drawable).triangles.size()};
+  return {0, std::get<TriangleStream>(drawable).size()};
 }
 
 // Counts of pixels by view, as count(frame, drawable) finds them.
@@ -99,31 +99,38 @@ py::list arrays_of(const Scene& scene) {
   });
 }
 
-std::unique_ptr<Drawn> stream(const Floats& vertices, const std::optional<Words>& colours, int width,
-                              int height) {
+template <auto list, typename Coordinate>
+std::unique_ptr<Drawn> stream(const Array<Coordinate>& vertices, const std::optional<Words>& colours,
+                              int width, int height) {
   check(vertices, "vertices", {-1, 3, 3});
   if (colours) check(*colours, "colours", {vertices.shape(0)});
   TriangleStream made{width, height, {}};
-  made.triangles.resize(static_cast<std::size_t>(vertices.shape(0)));
-  for (std::size_t i = 0; i < made.triangles.size(); ++i) {
-    StreamTriangle& t = made.triangles[i];
+  auto& triangles = made.*list;
+  triangles.resize(static_cast<std::size_t>(vertices.shape(0)));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    auto& t = triangles[i];
     std::memcpy(t.vertex, vertices.data() + 9 * i, sizeof t.vertex);
     t.colour = colours ? colours->data()[i] : kLightGrey;
   }
   return drawn(std::move(made));
 }
 
-// The arguments of stream().
-py::tuple arrays_of(const TriangleStream& stream) {
-  const auto count = static_cast<py::ssize_t>(stream.triangles.size());
-  Floats vertices({count, py::ssize_t{3}, py::ssize_t{3}});
+template <typename Coordinate, typename Triangle>
+py::tuple arrays_of(const TriangleStream& stream, const std::vector<Triangle>& triangles) {
+  const auto count = static_cast<py::ssize_t>(triangles.size());
+  Array<Coordinate> vertices({count, py::ssize_t{3}, py::ssize_t{3}});
   Words colours(count);
-  for (std::size_t i = 0; i < stream.triangles.size(); ++i) {
-    const StreamTriangle& t = stream.triangles[i];
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
     std::memcpy(vertices.mutable_data() + 9 * i, t.vertex, sizeof t.vertex);
     colours.mutable_data()[i] = t.colour;
   }
   return py::make_tuple(vertices, colours, stream.width, stream.height);
+}
+// The arguments of stream(). Python's streams have triangles of one kind.
+py::tuple arrays_of(const TriangleStream& stream) {
+  return stream.exact.empty() ? arrays_of<float>(stream, stream.triangles)
+                              : arrays_of<double>(stream, stream.exact);
 }
 
 template <typename Coordinate>
@@ -142,6 +149,8 @@ PYBIND11_MODULE(_native, m) {
   m.attr("VERSION") = EDGEWISE_VERSION;
   m.attr("PYBIND11") = py::make_tuple(PYBIND11_VERSION_MAJOR, PYBIND11_VERSION_MINOR);
   m.attr("MAX_THREADS") = kMaxThreads;
+  m.attr("MIN_SUBPIXEL_BITS") = kMinSubpixelBits;
+  m.attr("MAX_SUBPIXEL_BITS") = kMaxSubpixelBits;
   m.attr("DEPTH_HEAD") = contract::kDepthHead;
   m.attr("DEPTH_RANGE") = contract::kDepthRange;
   m.attr("DEPTH_CLEAR") = contract::kDepthClear;
@@ -194,7 +203,8 @@ PYBIND11_MODULE(_native, m) {
 
   py::class_<Drawn>(m, "Drawable")
       .def(py::init([] { return drawn(Scene{}); }))
-      .def(py::init(&stream))
+      .def(py::init(&stream<&TriangleStream::triangles, float>))
+      .def(py::init(&stream<&TriangleStream::exact, double>))
       .def("__deepcopy__",
            [](Drawn& self, const py::dict&) {
              return drawn(self.use([](const Drawable& drawable) { return drawable; }));

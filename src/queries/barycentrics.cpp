@@ -35,6 +35,7 @@ struct Piece {
   // w_is_distance: of streams and parallel projections false.
   Piece(const ScreenTriangle& screen, const std::array<SourceVertex, 3>& source, bool w_is_distance) {
     const contract::Oriented t = contract::orient(screen);
+    depth = contract::make_depth(t);
     const std::size_t second = contract::signed_area(screen) >= 0 ? 1 : 2, order[3] = {0, second, 3 - second};
     for (int i = 0; i < 3; ++i) {
       const SourceVertex& v = source[order[i]];
@@ -44,6 +45,7 @@ struct Piece {
     }
   }
 
+  contract::DepthPlane depth;
   contract::Edge opposite[3];   // by vertex
   double weights_over_w[3][3];  // by vertex: its weights of the source triangle's vertices
   double z_over_w[3];
@@ -58,8 +60,10 @@ double round_weight(double v) {
   return ((v * 0x1p24 + kRoundDouble) - kRoundDouble) * 0x1p-24;
 }
 
-// What a pixel shows of the first piece that covers it, if one does.
-std::optional<Point> point_at(std::span<const Piece> pieces, int x, int y) {
+// What a pixel of this depth shows of the first piece that covers it, if a piece that does has the depth.
+std::optional<Point> point_at(std::span<const Piece> pieces, int x, int y, std::uint32_t depth) {
+  std::optional<Point> point;
+  bool has_depth = false;
   for (const Piece& piece : pieces) {
     double e[3];
     std::int64_t outside = 0;
@@ -70,15 +74,17 @@ std::optional<Point> point_at(std::span<const Piece> pieces, int x, int y) {
       e[i] = static_cast<double>(biased + (contract::is_top_left(edge.a, edge.b) ? 0 : 1));
     }
     if (outside < 0) continue;
+    has_depth |= piece.depth.at(x, y) == depth;
+    if (point) continue;
     const auto sum = [&](double a, double b, double c) { return e[0] * a + e[1] * b + e[2] * c; };
     const auto& by = piece.weights_over_w;
     const double first = sum(by[0][0], by[1][0], by[2][0]), second = sum(by[0][1], by[1][1], by[2][1]),
                  third = sum(by[0][2], by[1][2], by[2][2]), all = first + second + third;
     const double u = round_weight(second / all), v = std::min(round_weight(third / all), 1.0 - u);
     const double z = sum(piece.z_over_w[0], piece.z_over_w[1], piece.z_over_w[2]) / all;
-    return Point{static_cast<float>(u), static_cast<float>(v), static_cast<float>(z)};
+    point = {static_cast<float>(u), static_cast<float>(v), static_cast<float>(z)};
   }
-  return {};
+  return has_depth ? point : std::nullopt;
 }
 
 // Makes the screen triangles of single source triangles, as the front end does.
@@ -89,7 +95,8 @@ class Triangles {
       : options_(options), target_(target), scene_(std::get_if<Scene>(&drawable)) {
     if (scene_ == nullptr) {
       stream_ = &std::get<TriangleStream>(drawable);
-      count_ = checked_count(stream_->triangles.size(), options.first_id);
+      check(*stream_);
+      count_ = checked_count(stream_->size(), options.first_id);
       return;
     }
     view_.emplace(*scene_, options.width, options.height);
@@ -142,12 +149,13 @@ class Triangles {
       const Scene& scene = *all_.scene_;
       const Instance& instance = scene.instances[index];
       const Mesh& mesh = scene.meshes[instance.mesh];
-      task_.emplace(MeshTask{.options = all_.options_,
-                             .mesh = mesh,
-                             .view = all_.view_->volume,
-                             .to_screen = {*all_.view_, model_matrix(mesh, instance)},
-                             .depth = all_.view_->depth,
-                             .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
+      task_.emplace(MeshTask{
+          .options = all_.options_,
+          .mesh = mesh,
+          .view = all_.view_->volume,
+          .to_screen = {*all_.view_, model_matrix(mesh, instance), is_fine(all_.options_.subpixel_bits)},
+          .depth = all_.view_->depth,
+          .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
     }
 
     const Triangles& all_;
@@ -237,7 +245,7 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
 
   const auto width = static_cast<std::uint64_t>(ids.width);
   constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  std::atomic<std::uint64_t> first_wrong{kNone};  // the first pixel whose triangle does not cover it
+  std::atomic<std::uint64_t> first_wrong{kNone};  // the first pixel that does not show its triangle
   const int parts = std::min(ids.height, threads == 1 ? 1 : 8 * threads);
   parallel_for(threads, parts, [&](int part) {
     constexpr Point kBackground{0.0f, 0.0f, std::numeric_limits<float>::infinity()};
@@ -255,7 +263,7 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
             last = triangle;
             pieces = last < triangles.count() ? cache.pieces_of(last) : std::span<const Piece>();
           }
-          point = point_at(pieces, x, y);
+          point = point_at(pieces, x, y, depth[x]);
         }
         if (!point) {
           const std::uint64_t pixel = static_cast<std::uint64_t>(y) * width + static_cast<std::uint64_t>(x);
@@ -282,7 +290,7 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
   const bool exists = id - options.first_id < triangles.count();
   throw std::invalid_argument(
       "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") has id " + std::to_string(id) +
-      (exists ? ", of a triangle that does not cover it"
+      (exists ? ", of a triangle that does not cover it at its depth"
               : " of " + std::to_string(triangles.count()) + " triangles" +
                     (options.first_id != 0 ? " from " + std::to_string(options.first_id) + " on" : "")));
 }

@@ -156,6 +156,11 @@ CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::s
                     [&size](const std::string& text) { size = parse_size("--size", text); });
 }
 
+CLI::Option* add_subpixel_bits(CLI::App& command, int& bits) {
+  return add_integer(command, "--subpixel-bits", bits, kMinSubpixelBits, kMaxSubpixelBits,
+                     "Round vertices to so many bits below a pixel, 4 to 15 (8)");
+}
+
 void SceneOptions::add_to(CLI::App& command) {
   add_size(command, size, "Image size (1280x720, or a .tri file's own, which other sizes crop)");
   add_number(command, "--time", time, -kLongestTime, kLongestTime, "Time of animated scenes in seconds (0)");
@@ -205,6 +210,7 @@ Shot load_shot(const std::string& name_or_path, const SceneOptions& options, dou
   }
   shot.frontend.cull = options.cull.value_or(source.stream ? Cull::none : Cull::back);
   shot.frontend.shade = !source.stream && !options.no_shade;
+  shot.frontend.subpixel_bits = options.subpixel_bits;
   return shot;
 }
 

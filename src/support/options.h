@@ -50,6 +50,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, std::optiona
 CLI::Option* add_integer(CLI::App& command, const std::string& name, int& value, int min, int max,
                          const std::string& help);
 CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::string& help);
+CLI::Option* add_subpixel_bits(CLI::App& command, int& bits);
 
 // Options for the scene: size, time, camera, and the front end's work on it.
 struct SceneOptions {
@@ -59,6 +60,7 @@ struct SceneOptions {
   std::optional<double> fov_deg, near_z, far_z, yaw_deg, pitch_deg;
   std::optional<Cull> cull;  // not given: back for meshes, none for streams
   bool fit = false, recentre = false, no_shade = false;
+  int subpixel_bits = FrontendOptions().subpixel_bits;  // add_subpixel_bits() adds its option
 
   void add_to(CLI::App& command);
 };

@@ -54,7 +54,7 @@ bool is_stream_file(const std::string& path) {
   const std::string file = input_path(path);
   if (!descriptor_of(file)) return extension_of(file) == ".tri";
   keep_content(file);
-  return starts_with(open_input(file), "TRI1");
+  return starts_with(open_input(file), "TRI");  // TRI1 or TRI2
 }
 
 std::string source_name(const std::string& name_or_path) {

@@ -54,7 +54,7 @@ lab::FloatTriangle as_floats(const ScreenTriangle& t) {
 std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   std::vector<std::uint32_t> colours;
   if (const auto* stream = std::get_if<TriangleStream>(&drawable)) {
-    for (const StreamTriangle& t : stream->triangles) colours.push_back(t.colour);
+    for (std::size_t i = 0; i < stream->size(); ++i) colours.push_back(stream->at(i).colour);
     return colours;
   }
   const Scene& scene = std::get<Scene>(drawable);

@@ -351,8 +351,8 @@ void Session::load(tools::Size size) {
     side.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
   }
   state_.axis = start_.axis.value_or(world_->first_axis());
-  const std::size_t amount = state_.stream ? std::get<TriangleStream>(world_->drawable()).triangles.size()
-                                           : vertex_count(*world_->scene());
+  const std::size_t amount =
+      state_.stream ? std::get<TriangleStream>(world_->drawable()).size() : vertex_count(*world_->scene());
   if (!start_.reproducible && amount > kMostJudged) {
     state_.errors = Errors::off;
     state_.message = "large scene: errors are not counted; [e] counts them";

@@ -77,10 +77,11 @@ TEST(PeerJudge, RejectsATriangleThatMissesThePixel) {
   EXPECT_EQ(pictures.judged().depth_ties, 0u);
 }
 
-std::shared_ptr<Workload> workload_of(const std::string& scene, bool fit = false) {
+std::shared_ptr<Workload> workload_of(const std::string& scene, bool fit = false, int subpixel_bits = 8) {
   const SceneRequest request{320, 180, 0.0f, 0.02};
   auto workload = std::make_shared<Workload>(request.width, request.height, Cull::back,
                                              [=] { return tools::load_source(scene, request, fit); });
+  workload->set_subpixel_bits(subpixel_bits);
   workload->prepare(true);
   return workload;
 }
@@ -201,16 +202,16 @@ TEST(PeerMethods, RoundAsReportedOnlyIfTheirPictureSaysSo) {
 }
 
 TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
-  const auto workload = workload_of("medium");
-  for (const bool exact : {true, false}) {
+  for (const auto& [exact, bits] : {std::pair{true, 8}, {false, 8}, {false, 4}, {false, 12}}) {
+    const auto workload = workload_of("medium", false, bits);
     PeerInfo right = mirror<false>(), wrong = mirror<true>();
-    right.exact = wrong.exact = exact;
+    right.exact = wrong.exact = exact || bits != 8;  // of 8 bits, which is judged as another at other bits
     PeerStage stage;
     Row good = row_of(right, workload, 1), bad = row_of(wrong, workload, 2);
     stage.compare(good);
     stage.compare(bad);
     EXPECT_EQ(good.error, "");
-    EXPECT_EQ(good.wrong_px, exact ? std::nullopt : std::optional<std::uint64_t>(0));
+    EXPECT_EQ(good.wrong_px.has_value(), !exact);
     EXPECT_NE(bad.error.find(exact ? "pixels are drawn in only one of the two pictures"
                                    : "pixels show another triangle although they are portable"),
               std::string::npos)

@@ -282,6 +282,35 @@ TEST_F(ProgramRenders, ACaptureAsTheSceneItCameFrom) {
   EXPECT_EQ(diff("b.pfm", "c.pfm"), 0);
 }
 
+// 15 subpixel bits beyond 512 px do not fit floats.
+TEST_F(ProgramRenders, ACaptureOfAnySubpixelBitsAsTheSceneItCameFrom) {
+  std::set<std::string> hashes;
+  for (const auto& [bits, format] : {std::pair{"4", "TRI1"}, {"8", "TRI1"}, {"12", "TRI1"}, {"15", "TRI2"}}) {
+    const std::string options = std::string(" --cull none --subpixel-bits ") + bits;
+    ASSERT_EQ(edgewise_with("capture medium --size 640x360 --scale 0.01" + options + " -o " + path("a.tri")).status, 0);
+    std::string magic(4, ' ');
+    std::ifstream(path("a.tri")).read(magic.data(), 4);
+    EXPECT_EQ(magic, format) << bits;
+    const auto hash = [&](const std::string& scene) {
+      return edgewise_with("hash " + scene + options).out.substr(0, 16);
+    };
+    EXPECT_EQ(hash(path("a.tri")), hash("medium --size 640x360 --scale 0.01")) << bits;
+    EXPECT_EQ(edgewise_with("hash - " + options + " <" + path("a.tri")).out.substr(0, 16),
+              hash(path("a.tri")));
+    EXPECT_TRUE(hashes.insert(hash(path("a.tri"))).second) << bits;
+    const Outcome verified =
+        edgewise_with("verify " + path("a.tri") + " --subpixel-bits " + bits + " --json -");
+    EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+    EXPECT_EQ(nlohmann::json::parse(verified.out).at("subpixel_bits"), std::stoi(bits));
+  }
+  const auto json = nlohmann::json::parse(
+      edgewise_with("render cube --size 9x9 --json --subpixel-bits 13 -o " + path("a.png")).out);
+  EXPECT_EQ(json.at("subpixel_bits"), 13);
+  ASSERT_EQ(edgewise_with("view cubes --size 90x50 --subpixel-bits 4 -o " + path("b.png")).status, 0);
+  ASSERT_EQ(edgewise_with("view cubes --size 90x50 -o " + path("c.png")).status, 0);
+  EXPECT_EQ(diff("b.png", "c.png"), 1);
+}
+
 TEST_F(ProgramRenders, AStreamCroppedNotScaled) {
   ASSERT_EQ(edgewise_with("capture grid4 --size 64x64 -o " + path("a.tri")).status, 0);
   ASSERT_EQ(edgewise_with("render " + path("a.tri") + " -o " + path("whole.png")).status, 0);
@@ -460,6 +489,22 @@ TEST_F(ProgramRenders, PicturesThatDiffComparesOutsideTheMask) {
   EXPECT_NE(both.out.find("1 of "), std::string::npos) << both.out;
   EXPECT_NE(both.out.find(" pixels outside the mask differ, by up to 1 of 255"), std::string::npos)
       << both.out;
+}
+
+TEST_F(ProgramRenders, AGoldenPictureWithTheBitsOfTheMask) {
+  for (const auto& [bits, drawn] : {std::pair{"4", "8"}, {"9-15", "9"}, {"15", "15"}}) {
+    const std::string golden = path("golden.png"), ids = path("ids.png");
+    const Outcome found =
+        edgewise_with(std::string("portable torus-knot --size 200x120 --ids --json --bits ") + bits +
+                      " --picture " + golden);
+    ASSERT_EQ(found.status, 0) << found.err;
+    EXPECT_EQ(nlohmann::json::parse(found.out).at("subpixel_bits"), std::stoi(bits));
+    ASSERT_EQ(edgewise_with(std::string("render torus-knot --size 200x120 --payload id --subpixel-bits ") +
+                            drawn + " -o " + ids)
+                  .status,
+              0);
+    EXPECT_EQ(edgewise_with("diff " + golden + " " + ids).status, 0) << bits;
+  }
 }
 
 TEST(Program, NeedsFits80ColumnsAndGivesItsEvidence) {

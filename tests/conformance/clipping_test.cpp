@@ -2,7 +2,7 @@
 //
 // The planes are near, far and the four sides of the guard band. The image's sides clip nothing. The tests
 // assert:
-// - If the new vertices lie on the 1/256 px grid, nothing is rounded: every pixel matches the exact polygon.
+// - If the new vertices lie on the grid, nothing is rounded: every pixel matches the exact polygon.
 // - Otherwise every decided sample matches (Outline), and one triangle hits no sample twice.
 // - Neighbours that share a clipped edge, or fill the image, hit every pixel along it once, without
 // exception.
@@ -32,10 +32,10 @@ Homogeneous homogeneous(glm::vec3 v) {
 // The visible part of a triangle or convex polygon, in double: clipped by the near and far planes and divided
 // by w, but neither cut by the guard band nor snapped.
 //
-// The front end rounds a new vertex to float and all vertices to 1/256 px, so an edge may lie up to
-// kHairlinePx from its exact position (lab/clipping/clipping.h derives this). A sample farther than that from
-// every edge is decided: there the picture must agree exactly. The other samples, fewer than one in 500, are
-// judged by hit counts only.
+// The front end rounds a new vertex to float and all vertices to 8 subpixel bits or more, so an edge may lie
+// up to kHairlinePx from its exact position (lab/clipping/clipping.h derives this). A sample farther than
+// that from every edge is decided: there the picture must agree exactly. The other samples, fewer than one in
+// 500, are judged by hit counts only.
 class Outline {
  public:
   explicit Outline(std::vector<Homogeneous> polygon) {
@@ -100,10 +100,12 @@ class Outline {
   std::vector<glm::dvec2> positions_;
 };
 
+// Fewer would move edges by more than kHairlinePx.
+constexpr int kClippedBits[] = {8, kMaxSubpixelBits};
+
 class ConformanceClips : public Conformance {
  protected:
-  void expect_outline(const Drawable& drawable, const View& view, const Outline& outline,
-                      const std::string& what) {
+  void expect_outline(const Drawable& drawable, View view, const Outline& outline, const std::string& what) {
     std::vector<int> expected;
     for (int y = 0; y < view.height; ++y)
       for (int x = 0; x < view.width; ++x) {
@@ -113,15 +115,18 @@ class ConformanceClips : public Conformance {
         inside_ += expected.back() > 0;
         ++judged_;
       }
-    with_each(what, [&](Pipeline& pipeline) {
-      const auto hits = pipeline.hits(drawable, view);
-      for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (expected[i] == kUndecided)
-          ASSERT_LE(hits[i], 1) << i;
-        else
-          ASSERT_EQ(hits[i], expected[i]) << i;
-      }
-    });
+    for (const int bits : kClippedBits) {
+      view.subpixel_bits = bits;
+      with_each(what + ", bits " + std::to_string(bits), [&](Pipeline& pipeline) {
+        const auto hits = pipeline.hits(drawable, view);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+          if (expected[i] == kUndecided)
+            ASSERT_LE(hits[i], 1) << i;
+          else
+            ASSERT_EQ(hits[i], expected[i]) << i;
+        }
+      });
+    }
   }
 
   void expect_most_decided() const {
@@ -134,13 +139,13 @@ class ConformanceClips : public Conformance {
   std::uint64_t judged_ = 0, undecided_ = 0, inside_ = 0;
 };
 
-// In rationals. Every corner must lie on the grid.
+// In rationals. Every corner must lie on the grid of 8 bits.
 std::vector<SubPosition> exact_polygon(const Triangle& t, const Plane& plane) {
   std::vector<SubPosition> polygon;
   const auto add = [&](const mpq_class& x, const mpq_class& y) {
     const mpq_class sx(x * 256), sy(y * 256);
     EXPECT_TRUE(sx.get_den() == 1 && sy.get_den() == 1);
-    polygon.push_back({sx.get_num().get_si(), sy.get_num().get_si()});
+    polygon.push_back({sx.get_num().get_si() * (kPixel / 256), sy.get_num().get_si() * (kPixel / 256)});
   };
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::vec3 &a = t[i], &b = t[(i + 1) % 3];
@@ -169,7 +174,9 @@ TEST_P(ConformanceExactClips, OneOrTwoVerticesBeyondAPlaneLeaveTheExactPolygon) 
         ASSERT_EQ(polygon.size(), outside == 1 ? 4u : 3u);
         auto expected = windings(polygon, view.width, view.height);
         for (int& turns : expected) covered += turns = std::abs(turns);
-        expect_hits(stream_of(t), view, expected, "trial " + std::to_string(trial));
+        for (const int bits : kClippedBits)
+          expect_hits(stream_of(t), {.subpixel_bits = bits}, expected,
+                      "trial " + std::to_string(trial) + ", bits " + std::to_string(bits));
         // The triangle has the polygon's facing.
         const bool front = area(polygon) > 0;
         if (area(polygon) != 0)
@@ -286,10 +293,19 @@ Fan make_fan(glm::vec3 hub, glm::vec3 u, glm::vec3 v, int spokes, double turn, b
 class ConformanceFans : public ConformanceClips {
  protected:
   void expect_all_once(const Drawable& drawable, const Fan& fan, View view, const std::string& what) {
+    for (const int bits : kBits) {
+      view.subpixel_bits = bits, view.cull = Cull::none;
+      expect_all_once_with_bits(drawable, fan, view, what + ", bits " + std::to_string(bits));
+    }
+  }
+
+ private:
+  void expect_all_once_with_bits(const Drawable& drawable, const Fan& fan, View view,
+                                 const std::string& what) {
     const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
     expect_hits(drawable, view, std::vector<int>(pixels, 1), what);
-    const bool front = drawn(drawable, {view.width, view.height, Cull::back});
-    EXPECT_NE(front, drawn(drawable, {view.width, view.height, Cull::front}));
+    const bool front = drawn(drawable, {view.width, view.height, Cull::back, view.subpixel_bits});
+    EXPECT_NE(front, drawn(drawable, {view.width, view.height, Cull::front, view.subpixel_bits}));
     view.cull = front ? Cull::back : Cull::front;
     expect_hits(drawable, view, std::vector<int>(pixels, 1), what + ", the others culled");
     with_each(what, [&](Pipeline& pipeline) {
@@ -301,8 +317,6 @@ class ConformanceFans : public ConformanceClips {
       ASSERT_EQ(s.triangles, fan.triangles.size());
     });
   }
-
- private:
   bool drawn(const Drawable& drawable, const View& view) {
     return !pipelines().front().triangles(drawable, view).empty();
   }

@@ -12,7 +12,7 @@ namespace {
 
 class ConformanceCulling : public Conformance {
  protected:
-  static bool is_kept(Cull cull, std::int64_t twice_area) {
+  static bool is_kept(Cull cull, Product twice_area) {
     return twice_area > 0 ? cull == Cull::none || cull == Cull::back
                           : twice_area < 0 && (cull == Cull::none || cull == Cull::front);
   }
@@ -24,7 +24,7 @@ class ConformanceCulling : public Conformance {
       std::vector<std::uint32_t> visible(
           static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), kNoTriangle);
       for (std::uint32_t id = 0; id < stream.triangles.size(); ++id) {
-        const auto positions = snapped(stream.triangles[id].vertex);
+        const auto positions = snapped(stream.triangles[id].vertex, view.subpixel_bits);
         if (!is_kept(cull, area(positions))) continue;
         auto visible_it = visible.begin();
         for (int y = 0; y < view.height; ++y)
@@ -37,8 +37,11 @@ class ConformanceCulling : public Conformance {
 
   // Checks the list, and the list with every triangle reversed.
   void expect_culled_both_ways(const TriangleStream& stream, const std::string& what) {
-    expect_culled(stream, {}, what);
-    expect_culled(reversed(stream), {}, what + " reversed");
+    for (const int bits : kBits) {
+      expect_culled(stream, {.subpixel_bits = bits}, what + ", bits " + std::to_string(bits));
+      expect_culled(reversed(stream), {.subpixel_bits = bits},
+                    what + " reversed, bits " + std::to_string(bits));
+    }
   }
 };
 
@@ -62,39 +65,43 @@ TEST_F(ConformanceCulling, MeshesKeepTheFacesThatTheModeSelects) {
     mesh.colours.assign(mesh.triangles.size(), 0);
     scene.meshes.push_back(mesh);
     scene.instances.push_back({.scale = {mirror, 1, 1}});
-    with_each("mesh", [&](Pipeline& pipeline) {
-      const auto span = pipeline.triangles(scene, {});
-      const std::vector<ScreenTriangle> all(span.begin(), span.end());
-      ASSERT_GT(all.size(), 20u);
-      for (const Cull cull : cull_modes()) {
-        std::vector<std::uint32_t> expected, ids;
-        for (const ScreenTriangle& t : all) {
-          const std::array positions{SubPosition{t.x_q15[0] / 128, t.y_q15[0] / 128},
-                                     SubPosition{t.x_q15[1] / 128, t.y_q15[1] / 128},
-                                     SubPosition{t.x_q15[2] / 128, t.y_q15[2] / 128}};
-          if (is_kept(cull, area(positions))) expected.push_back(t.payload);
+    for (const int bits : kBits)
+      with_each("mesh, bits " + std::to_string(bits), [&](Pipeline& pipeline) {
+        const auto span = pipeline.triangles(scene, {.subpixel_bits = bits});
+        const std::vector<ScreenTriangle> all(span.begin(), span.end());
+        ASSERT_GT(all.size(), 20u);
+        for (const Cull cull : cull_modes()) {
+          std::vector<std::uint32_t> expected, ids;
+          for (const ScreenTriangle& t : all) {
+            const std::array positions{SubPosition{t.x_q15[0], t.y_q15[0]},
+                                       SubPosition{t.x_q15[1], t.y_q15[1]},
+                                       SubPosition{t.x_q15[2], t.y_q15[2]}};
+            if (is_kept(cull, area(positions))) expected.push_back(t.payload);
+          }
+          for (const ScreenTriangle& t : pipeline.triangles(scene, {.cull = cull, .subpixel_bits = bits}))
+            ids.push_back(t.payload);
+          ASSERT_EQ(ids, expected) << name_of(cull);
         }
-        for (const ScreenTriangle& t : pipeline.triangles(scene, {.cull = cull})) ids.push_back(t.payload);
-        ASSERT_EQ(ids, expected) << name_of(cull);
-      }
-    });
+      });
   }
 }
 
 TEST_F(ConformanceCulling, TinyTrianglesOfAlternatingWindingsFollowTheMode) {
-  for (const TinyShape& shape : kTinyShapes) {
-    const TriangleStream stream = tiny_triangles(shape);
-    const View view{stream.width, stream.height};
-    for (const Cull cull : cull_modes()) {
-      std::vector<std::uint32_t> visible;
-      for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x)
-          visible.push_back(is_kept(cull, (x + y) % 2 == 0 ? 1 : -1)
-                                ? static_cast<std::uint32_t>(y * view.width + x)
-                                : kNoTriangle);
-      expect_visible_triangles(stream, {view.width, view.height, cull}, visible, std::string(name_of(cull)));
+  for (const int bits : {8, 12, kMaxSubpixelBits})
+    for (const TinyShape& shape : kTinyShapes) {
+      const TriangleStream stream = tiny_triangles(shape, bits);
+      const View view{stream.width, stream.height};
+      for (const Cull cull : cull_modes()) {
+        std::vector<std::uint32_t> visible;
+        for (int y = 0; y < view.height; ++y)
+          for (int x = 0; x < view.width; ++x)
+            visible.push_back(is_kept(cull, (x + y) % 2 == 0 ? 1 : -1)
+                                  ? static_cast<std::uint32_t>(y * view.width + x)
+                                  : kNoTriangle);
+        expect_visible_triangles(stream, {view.width, view.height, cull, bits}, visible,
+                                 std::string(name_of(cull)) + ", bits " + std::to_string(bits));
+      }
     }
-  }
 }
 
 }  // namespace

@@ -66,24 +66,28 @@ TEST_F(ConformanceDepth, CameraWallsHaveTheExpectedDepth) {
 // A slope from nearer than the near plane to beyond the far plane, clipped where floats and the grid are
 // exact. The clipped edge runs along a column of samples, which are covered if it is a left edge.
 TEST_F(ConformanceDepth, ASlopeThroughBothPlanesIsDrawnBetweenThem) {
-  for (const float start : kSlopeStarts)
-    for (const bool falls : {false, true})
-      with_each("start " + std::to_string(start) + (falls ? " falling" : ""), [&](Pipeline& pipeline) {
-        const TriangleStream stream = slope(start, falls);
-        const auto hits = pipeline.hits(stream, {});
-        const Framebuffer& frame = pipeline.draw(stream, {});
-        for (int y = 0; y < 64; ++y)
-          for (int x = 0; x < 64; ++x) {
-            const float sample = static_cast<float>(x) + 0.5f;
-            const bool between = sample >= start && sample < start + 32;
-            ASSERT_EQ(hits[static_cast<std::size_t>(y * 64 + x)], between) << x << ", " << y;
-            ASSERT_EQ(frame.depth_row(y)[x] == contract::kDepthClear, !between);
-            if (!between) continue;
-            const double z = (sample - start) / 32.0;
-            const double exact = kDepthHead + (falls ? 1 - z : z) * kDepthRange;
-            ASSERT_LT(std::abs(frame.depth_row(y)[x] - exact), contract::kDepthError) << x << ", " << y;
-          }
-      });
+  const auto what = [](float start, bool falls, int bits) {
+    return "start " + std::to_string(start) + (falls ? " falling, " : ", ") + std::to_string(bits) + " bits";
+  };
+  for (const int bits : kBits)
+    for (const float start : kSlopeStarts)
+      for (const bool falls : {false, true})
+        with_each(what(start, falls, bits), [&](Pipeline& pipeline) {
+          const TriangleStream stream = slope(start, falls);
+          const auto hits = pipeline.hits(stream, {.subpixel_bits = bits});
+          const Framebuffer& frame = pipeline.draw(stream, {.subpixel_bits = bits});
+          for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+              const float sample = static_cast<float>(x) + 0.5f;
+              const bool between = sample >= start && sample < start + 32;
+              ASSERT_EQ(hits[static_cast<std::size_t>(y * 64 + x)], between) << x << ", " << y;
+              ASSERT_EQ(frame.depth_row(y)[x] == contract::kDepthClear, !between);
+              if (!between) continue;
+              const double z = (sample - start) / 32.0;
+              const double exact = kDepthHead + (falls ? 1 - z : z) * kDepthRange;
+              ASSERT_LT(std::abs(frame.depth_row(y)[x] - exact), contract::kDepthError) << x << ", " << y;
+            }
+        });
 }
 
 }  // namespace

@@ -13,12 +13,17 @@ namespace {
 class ConformanceFillRules : public Conformance {
  protected:
   // Checks all ways to split the quad into two triangles.
-  void expect_filled(const Quad& quad, const View& view, const std::string& what) {
-    const auto expected = windings(snapped(quad), view.width, view.height);
-    for (const Split& split : kSplits)
-      expect_hits(stream_of(quad, {split.a, split.b}), view, expected, what + ", " + split.name);
-    ties_ += ties(snapped(quad[0]), snapped(quad[2]), view.width, view.height) +
-             ties(snapped(quad[1]), snapped(quad[3]), view.width, view.height);
+  void expect_filled(const Quad& quad, View view, const std::string& what) {
+    for (const int bits : kBits) {
+      view.subpixel_bits = bits;
+      const auto corners = snapped(quad, bits);
+      const auto expected = windings(corners, view.width, view.height);
+      for (const Split& split : kSplits)
+        expect_hits(stream_of(quad, {split.a, split.b}), view, expected,
+                    what + ", " + split.name + ", bits " + std::to_string(bits));
+      ties_ += ties(corners[0], corners[2], view.width, view.height) +
+               ties(corners[1], corners[3], view.width, view.height);
+    }
   }
 
   int ties_ = 0;  // samples exactly on a shared diagonal
@@ -29,7 +34,7 @@ TEST_F(ConformanceFillRules, QuadsOnTheLatticeAreHitOnceAtEveryAngle) {
     for (const double corner : {0.0, 0.5})
       expect_filled(on_lattice(direction, corner), {},
                     "direction " + std::to_string(direction.first) + ":" + std::to_string(direction.second));
-  EXPECT_GT(ties_, 500) << "too few samples on edges to test the tie rule";
+  EXPECT_GT(ties_, 2000) << "too few samples on edges to test the tie rule";
 }
 
 TEST_F(ConformanceFillRules, QuadsAtAnyAngleAreHitOnce) {
@@ -53,7 +58,7 @@ TEST_F(ConformanceFillRules, QuadsAcrossTheImagesEdgesAreHitOnce) {
       const auto quad = rotated({16.5, 23.5}, half, along);
       expect_filled(quad, view, "half " + std::to_string(half) + ", step " + std::to_string(step));
       if (half > 100) {
-        const auto all = windings(snapped(quad), view.width, view.height);
+        const auto all = windings(snapped(quad, 8), view.width, view.height);
         EXPECT_EQ(std::count(all.begin(), all.end(), 1), 33 * 47);
       }
     }
@@ -64,31 +69,35 @@ TEST_F(ConformanceFillRules, QuadsAcrossTheImagesEdgesAreHitOnce) {
 
 class ConformanceDegenerate : public Conformance {
  protected:
-  void expect_flat(const std::vector<glm::vec3>& v, const std::string& what) {
+  void expect_flat(const std::vector<glm::vec3>& v, int bits, const std::string& what) {
     std::vector<glm::uvec3> triangles;
     for (unsigned i = 0; i + 2 < v.size(); i += 3)
       for (const glm::uvec3 order :
            {glm::uvec3(0, 1, 2), glm::uvec3(1, 2, 0), glm::uvec3(2, 0, 1), glm::uvec3(2, 1, 0)})
         triangles.push_back(order + i);
     for (const Cull cull : cull_modes())
-      expect_nothing(stream_of(v, triangles), {.cull = cull}, what + ", cull " + std::string(name_of(cull)));
+      expect_nothing(stream_of(v, triangles), {.cull = cull, .subpixel_bits = bits},
+                     what + ", cull " + std::string(name_of(cull)) + ", bits " + std::to_string(bits));
   }
 };
 
-// Triangles with area in float, whose vertices are collinear or equal after rounding to 1/256 px.
+// Triangles with area in float, whose vertices are collinear or equal after rounding.
 TEST_F(ConformanceDegenerate, TrianglesThatSnappingFlattensDrawNothing) {
   Random random(5);
-  std::vector<glm::vec3> v;
-  const auto jitter = [&] { return random.uniform(-0.0019f, 0.0019f); };  // less than 1/512 px
-  for (int i = 0; i < 200; ++i) {
-    const glm::vec2 from(random.below(64), random.below(64)), step(random.below(5), random.below(5));
-    for (int k = 0; k < 3; ++k) {
-      const glm::vec2 p = from + step * static_cast<float>(k) + glm::vec2(jitter(), jitter());
-      v.emplace_back(p, random.uniform(0.0f, 1.0f));
+  for (const int bits : kBits) {
+    std::vector<glm::vec3> v;
+    const float less_than_half = std::ldexp(0.486f, -bits);
+    const auto jitter = [&] { return random.uniform(-less_than_half, less_than_half); };
+    for (int i = 0; i < 200; ++i) {
+      const glm::vec2 from(random.below(64), random.below(64)), step(random.below(5), random.below(5));
+      for (int k = 0; k < 3; ++k) {
+        const glm::vec2 p = from + step * static_cast<float>(k) + glm::vec2(jitter(), jitter());
+        v.emplace_back(p, random.uniform(0.0f, 1.0f));
+      }
+      ASSERT_TRUE(area(snapped(std::span(v).last(3), bits)) == 0);
     }
-    ASSERT_EQ(area(snapped(std::span(v).last(3))), 0);
+    expect_flat(v, bits, "flattened");
   }
-  expect_flat(v, "flattened");
 }
 
 // Triangles without area that cross every clipping plane: the clipped parts have no area either.
@@ -101,7 +110,7 @@ TEST_F(ConformanceDegenerate, ClippedFlatTrianglesDrawNothing) {
     v.insert(v.end(), {middle - reach, middle + reach, middle - reach});
     v.insert(v.end(), {middle + reach, middle + reach, middle + reach});
   }
-  expect_flat(v, "clipped");
+  for (const int bits : kBits) expect_flat(v, bits, "clipped");
 }
 
 }  // namespace

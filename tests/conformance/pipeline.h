@@ -39,19 +39,22 @@ struct Position {
   T x, y;
 };
 
-// 1/256 px, as snapped positions are; up to 2^30.
+// 2^-15 px, as snapped positions are; up to 2^37.
 using SubPosition = Position<std::int64_t>;
+using Product = contract::int128;
+inline constexpr std::int64_t kPixel = 1 << kMaxSubpixelBits;
+inline constexpr int kBits[] = {kMinSubpixelBits, 8, 12, kMaxSubpixelBits};  // that the suite draws
 
 // The winding number around a pixel's sample: positive is clockwise on the y-down screen, that is front.
 // Triangles that fill the polygon with its orientation must draw the pixel this many times in total.
 inline int winding(std::span<const SubPosition> polygon, int px, int py) {
-  const std::int64_t sx = std::int64_t{px} * 256 + 128, sy = std::int64_t{py} * 256 + 128;
+  const std::int64_t sx = px * kPixel + kPixel / 2, sy = py * kPixel + kPixel / 2;
   int turns = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const SubPosition &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
     const bool down = p.y <= sy && sy < q.y, up = q.y <= sy && sy < p.y;
     if (!down && !up) continue;
-    const std::int64_t side = (q.x - p.x) * (sy - p.y) - (q.y - p.y) * (sx - p.x);
+    const Product side = Product{q.x - p.x} * (sy - p.y) - Product{q.y - p.y} * (sx - p.x);
     if (down && side > 0) ++turns;
     if (up && side < 0) --turns;
   }
@@ -66,11 +69,11 @@ inline std::vector<int> windings(std::span<const SubPosition> polygon, int width
 }
 
 // Twice the area; positive is clockwise.
-inline std::int64_t area(std::span<const SubPosition> polygon) {
-  std::int64_t sum = 0;
+inline Product area(std::span<const SubPosition> polygon) {
+  Product sum = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const SubPosition &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-    sum += p.x * q.y - p.y * q.x;
+    sum += Product{p.x} * q.y - Product{p.y} * q.x;
   }
   return sum;
 }
@@ -80,8 +83,9 @@ inline int ties(const SubPosition& p, const SubPosition& q, int width, int heigh
   int count = 0;
   for (std::int64_t y = 0; y < height; ++y)
     for (std::int64_t x = 0; x < width; ++x) {
-      const std::int64_t dx = x * 256 + 128 - p.x, dy = y * 256 + 128 - p.y, ex = q.x - p.x, ey = q.y - p.y;
-      const std::int64_t along = dx * ex + dy * ey;
+      const Product dx = x * kPixel + kPixel / 2 - p.x, dy = y * kPixel + kPixel / 2 - p.y, ex = q.x - p.x,
+                    ey = q.y - p.y;
+      const Product along = dx * ex + dy * ey;
       count += dx * ey == dy * ex && along > 0 && along < ex * ex + ey * ey;
     }
   return count;
@@ -92,6 +96,7 @@ inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;  // payload where nothi
 struct View {
   int width = 64, height = 64;  // px
   Cull cull = Cull::none;
+  int subpixel_bits = 8;
 };
 
 class Pipeline {
@@ -107,6 +112,7 @@ class Pipeline {
   std::span<const ScreenTriangle> triangles(const Drawable& drawable, const View& view) {
     FrontendOptions options{.width = view.width, .height = view.height, .cull = view.cull};
     options.payload = Payload::id;
+    options.subpixel_bits = view.subpixel_bits;
     return frontend_.run(drawable, options, {.target = target_});
   }
   const FrontendStats& stats() const { return frontend_.stats(); }
@@ -204,15 +210,18 @@ class Conformance : public ::testing::Test {
   std::uint64_t cases_ = 0;
 };
 
-// The snapped position of a float: half to even, exact (a float times 256 is a double). Only in range.
-inline SubPosition snapped(glm::vec3 v) {
-  const auto one = [](float px) { return std::llrint(static_cast<double>(px) * 256.0); };
+// The snapped position of a float: half to even, exact (a float times a power of 2 is a double). Only in
+// range.
+inline SubPosition snapped(glm::vec3 v, int bits) {
+  const auto one = [bits](float px) {
+    return std::llrint(std::ldexp(double{px}, bits)) << (kMaxSubpixelBits - bits);
+  };
   return {one(v.x), one(v.y)};
 }
 
-inline std::vector<SubPosition> snapped(std::span<const glm::vec3> polygon) {
+inline std::vector<SubPosition> snapped(std::span<const glm::vec3> polygon, int bits) {
   std::vector<SubPosition> all;
-  for (const glm::vec3 v : polygon) all.push_back(snapped(v));
+  for (const glm::vec3 v : polygon) all.push_back(snapped(v, bits));
   return all;
 }
 

@@ -62,15 +62,16 @@ inline constexpr TinyShape kTinyShapes[] = {{{{0, 0}, {1, 0}, {0, 1}}},
                                             {{{-127, -127}, {127, -127}, {-126, 127}}}};
 
 // One triangle for each pixel, with alternating windings.
-inline TriangleStream tiny_triangles(const TinyShape& shape) {
+inline TriangleStream tiny_triangles(const TinyShape& shape, int subpixel_bits = 8) {
+  const auto units = static_cast<float>(1 << subpixel_bits);  // per pixel
   TriangleStream stream{48, 40, {}};
   for (int y = 0; y < stream.height; ++y)
     for (int x = 0; x < stream.width; ++x) {
       StreamTriangle t{};
       for (std::size_t k = 0; k < 3; ++k) {
         const glm::ivec2 p = shape[(x + y) % 2 == 0 ? k : 2 - k];
-        t.vertex[k] = {static_cast<float>(x) + 0.5f + static_cast<float>(p.x) / 256.0f,
-                       static_cast<float>(y) + 0.5f + static_cast<float>(p.y) / 256.0f, 0.5f};
+        t.vertex[k] = {static_cast<float>(x) + 0.5f + static_cast<float>(p.x) / units,
+                       static_cast<float>(y) + 0.5f + static_cast<float>(p.y) / units, 0.5f};
       }
       stream.triangles.push_back(t);
     }

@@ -68,6 +68,34 @@ TEST(TriFile, LayoutIsAsDocumented) {
   EXPECT_EQ(tri_text(stream), expected + "\x01\x02\x03\xFF");
 }
 
+TEST(TriFile, DoublesAreWrittenAsDocumentedAndKeepEveryBit) {
+  const TempDir dir;
+  TriangleStream stream{3, 2, {}, {{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, rgb(1, 2, 3)}}};
+  const double values[] = {10 + 0x1p-40, 1e300, -0.0, 0x1p-1074, std::nan("7"), -1.0 / 3, 16, 17, 18};
+  ExactStreamTriangle& exact = stream.exact.emplace_back(ExactStreamTriangle{{}, 0x80FF1234u});
+  std::copy_n(values, 9, &exact.vertex[0].x);
+  std::string expected = "TRI2" + tri_header(3, 2, 2).substr(4);
+  const auto append = [&](double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    expected += le32(static_cast<std::uint32_t>(bits)) + le32(static_cast<std::uint32_t>(bits >> 32));
+  };
+  for (int i = 1; i <= 9; ++i) append(i);
+  expected += "\x01\x02\x03\xFF";
+  for (const double value : values) append(value);
+  expected += le32(exact.colour);
+  EXPECT_EQ(tri_text(stream), expected);
+
+  const TriangleStream back = read_tri(dir.write("a.tri", expected));
+  ASSERT_EQ(std::tuple(back.width, back.height, back.triangles.size(), back.exact.size()),
+            std::tuple(3, 2, 0u, 2u));
+  EXPECT_EQ(std::memcmp(back.exact[1].vertex, values, sizeof values), 0);
+  EXPECT_EQ(back.at(1).colour, exact.colour);
+  EXPECT_EQ(tri_text(back), expected);
+  stream.triangles.emplace_back();
+  EXPECT_EQ(message_of([&] { tri_text(stream); }),
+            "a .tri file holds triangles in float or in double, not both");
+}
+
 using Rows = std::vector<std::pair<std::string, std::string>>;  // content and message
 
 TEST(TriFile, MalformedOnesAreRefusedWithTheReason) {
@@ -75,7 +103,9 @@ TEST(TriFile, MalformedOnesAreRefusedWithTheReason) {
   for (const auto& [content, message] :
        Rows{{"", "truncated: the header has 16 bytes, the file 0"},
             {"TRI1abcdefgh", "truncated: the header has 16 bytes, the file 12"},
-            {"solid cube of some other format", "is not a triangle stream (it does not start with TRI1)"},
+            {"solid cube of some other format",
+             "is not a triangle stream (it does not start with TRI1 or TRI2)"},
+            {"TRI3" + std::string(12, 'x'), "is not a triangle stream (it does not start with TRI1 or TRI2)"},
             {tri_header(0, 1, 0), "image size 0x1 is outside 1 to 16384"},
             {tri_header(1, 0xFFFFFFFF, 0), "image size 1x4294967295 is outside 1 to 16384"},
             {tri_header(8, 8, 10) + std::string(123, 'x'),
@@ -83,7 +113,9 @@ TEST(TriFile, MalformedOnesAreRefusedWithTheReason) {
             {tri_header(8, 8, 0xFFFFFFFF) + std::string(24, 'x'),
              "truncated: header promises 4294967295 triangles (171798691800 bytes), 24 bytes follow"},
             {tri_header(8, 8, 1) + std::string(41, 'x'),
-             "too long: header promises 1 triangle (40 bytes), 41 bytes follow"}}) {
+             "too long: header promises 1 triangle (40 bytes), 41 bytes follow"},
+            {"TRI2" + tri_header(8, 8, 1).substr(4) + std::string(75, 'x'),
+             "truncated: header promises 1 triangle (76 bytes), 75 bytes follow"}}) {
     const auto path = dir.write("bad.tri", content);
     EXPECT_EQ(message_of([&] { read_tri(path); }), path.string() + ": " + message);
   }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "edgewise/contract.h"
@@ -149,8 +150,9 @@ void check_frontend(const Drawable& drawable, int width, int height) {
   make_clusters(in_clusters);
   static Frontend scalar, vectors;  // reused for all inputs, as programs reuse them for all frames
   options.shade = std::holds_alternative<Scene>(drawable);
-  for (const Cull cull : {Cull::none, Cull::back}) {
-    options.cull = cull;
+  for (const auto& [cull, bits] :
+       {std::pair{Cull::none, 8}, {Cull::back, 8}, {Cull::none, kMaxSubpixelBits}}) {
+    options.cull = cull, options.subpixel_bits = bits;
     const auto expected = run(scalar, drawable, options, SimdTarget::scalar);
     for (const SimdTarget target : supported_targets())
       for (const bool clustered : {false, true}) {

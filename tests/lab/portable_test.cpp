@@ -154,9 +154,9 @@ TEST(Portable, RejectsWhatIsOutOfRange) {
   EXPECT_EQ(message_of([] { find_depth_format("d24"); }),
             "unknown depth format 'd24'; did you mean 'd24_unorm'? (known: d16_unorm d24_unorm d32_sfloat)");
   EXPECT_NE(message_of([] { portable_pixels({}, 0, 1, {}, 1); }), "");
-  for (const int bits : {0, 9, 12, 16})
+  for (const int bits : {0, 16})
     EXPECT_EQ(message_of([&] { portable_pixels({}, 1, 1, {.subpixel_bits = bits}, 1); }),
-              "subpixel bits must be 1 to 8: the library draws no more yet");
+              "subpixel bits must be 1 to 15, the most that the library draws");
   EXPECT_NE(message_of([] { portable_pixels({}, 1, 1, {.transform_ulps = -1}, 1); }), "");
   EXPECT_NE(message_of([] { judged({triangle({0, 0x1p21f, 0}, {0, 0, 9}, 0.5f, 0)}); }), "");
 }
@@ -262,7 +262,7 @@ Disagreement witnesses_disagree(int bits, const Conformance& model, int scenes) 
 
 TEST(Portable, NoTwoConformantRasterizersDifferOutsideTheMask) {
   const int scenes = testing::full_size() ? 10'000 : 300;
-  for (const int bits : {4, 8})
+  for (const int bits : {4, 8, 12})
     for (const DepthFormat& format : depth_formats()) {
       const Disagreement found = witnesses_disagree(bits, {.subpixel_bits = bits, .depth = format}, scenes);
       EXPECT_EQ(found.outside, 0u) << bits << " bits, " << format.name;
@@ -276,8 +276,10 @@ TEST(Portable, WitnessesFindAMaskThatIsTooSmall) {
   EXPECT_GT(witnesses_disagree(6, {.subpixel_bits = 8}, 300).outside, 0u);
 }
 
+class PortableBits : public ::testing::TestWithParam<int> {};
+
 // Of meshes, our own picture too must lie within the model.
-TEST(Portable, OursIsTheReferenceOfMeshes) {
+TEST_P(PortableBits, OursIsTheReferenceOfMeshes) {
   // Far from the mesh's origin, floats give distances and depths of few digits.
   constexpr std::pair<const char*, float> kScenes[] = {
       {"cube", 0}, {"cubes", 0}, {"cubes", 1000}, {"torus-knot", 0}, {"terrain", 0}};
@@ -290,9 +292,10 @@ TEST(Portable, OursIsTheReferenceOfMeshes) {
       scene.camera.position += shift;
     }
     const Drawable drawable = scene;
-    FrontendOptions options{request.width, request.height};
+    FrontendOptions options{.width = request.width, .height = request.height, .subpixel_bits = GetParam()};
     const auto triangles = portable_triangles(drawable, options);
-    const PortablePixels mask = portable_pixels(triangles, options.width, options.height, {}, 2);
+    const PortablePixels mask =
+        portable_pixels(triangles, options.width, options.height, {.subpixel_bits = GetParam()}, 2);
     options.payload = Payload::id;
     Frontend frontend;
     Framebuffer ours(options.width, options.height);
@@ -316,6 +319,9 @@ TEST(Portable, OursIsTheReferenceOfMeshes) {
     EXPECT_LE(differ, exact.size() / 100) << name;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Subpixel, PortableBits, ::testing::Values(8, 12, kMaxSubpixelBits),
+                         [](const auto& p) { return std::to_string(p.param); });
 
 }  // namespace
 }  // namespace edgewise::lab

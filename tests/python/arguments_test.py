@@ -14,6 +14,7 @@ WIDTH, HEIGHT = SIZE
 POSITIONS, INDICES, COLOURS = triangles()
 IDENTITY = np.eye(4)
 FRAME = scene().draw(CAMERA, SIZE, ids=True)
+FINE = scene().draw(CAMERA, SIZE, ids=True, subpixel_bits=12)
 
 
 def plane(*shape, dtype=np.uint32):
@@ -77,6 +78,14 @@ CASES = {
     "backend": ("did you mean 'tiled'", lambda: scene().draw(CAMERA, SIZE, backend="tile")),
     "threads 0": ("threads", lambda: scene().draw(CAMERA, SIZE, threads=0)),
     "threads 257": ("threads", lambda: scene().draw(CAMERA, SIZE, threads=257)),
+    "subpixel_bits 3": ("subpixel_bits must be an integer from 4 to 15, not 3", lambda: scene().draw(CAMERA, SIZE, subpixel_bits=3)),
+    "subpixel_bits 16": ("subpixel_bits", lambda: stream().draw(subpixel_bits=16)),
+    "mask of 16 bits": ("subpixel_bits", lambda: scene().amodal_masks(CAMERA, SIZE, subpixel_bits=16)),
+    "other subpixel_bits": ("subpixel_bits is 8, but the frame was drawn with 12", lambda: scene().barycentrics(FINE, CAMERA)),
+    "attribute at other subpixel_bits": ("drawn with 12", lambda: edgewise.Scene(POSITIONS, INDICES).interpolate(
+        FINE, POSITIONS, CAMERA, subpixel_bits=4)),
+    "other bits of a frame that does not know them": ("pixel .* at its depth", lambda: scene().barycentrics(
+        edgewise.Frame(*FINE), CAMERA)),
     "negative scissor": ("scissor", lambda: scene().draw(CAMERA, SIZE, scissor=(0, 0, -1, 1))),
     "onto another size": ("shape", onto(plane(5, 5), plane(5, 5))),
     "payload of another size": ("same shape", onto(plane(5, 5), plane())),
@@ -107,7 +116,7 @@ CASES = {
     "vertices of 2 coordinates": ("vertices", lambda: edgewise.Stream(np.zeros((4, 3, 2)), SIZE)),
     "bits 0": ("bits", lambda: stream().portable(bits=0)),
     "ulps -1": ("ulps", lambda: stream().portable(ulps=-1)),
-    "bits 9": ("1 to 8: the library draws no more", lambda: stream().portable(bits=9)),
+    "bits 16": ("1 to 15, the most that the library draws", lambda: stream().portable(bits=16)),
     "depth format": ("depth format", lambda: stream().portable(depth="d25")),
     "portable of a parallel projection": ("perspective", lambda: scene().portable(edgewise.Camera(
         IDENTITY, edgewise.orthographic(-1, 1, -1, 1, -2, 2)), SIZE)),

@@ -32,6 +32,15 @@ def test_backends_and_threads_draw_the_same(camera, ids):
     assert len({edgewise.pixel_hash(frame) for frame in frames}) == 1
 
 
+@pytest.mark.parametrize("draw", [lambda **options: scene().draw(CAMERA, SIZE, **options), lambda **options: stream().draw(**options)])
+def test_every_number_of_subpixel_bits_has_a_picture_of_its_own(draw):
+    frames = [[draw(subpixel_bits=bits, backend=backend, threads=threads)
+               for backend in (*edgewise.BACKENDS, "tiles+spans") for threads in (1, 3)] for bits in range(4, 16)]
+    hashes = [{edgewise.pixel_hash(frame) for frame in of_bits} for of_bits in frames]
+    assert all(len(of_bits) == 1 for of_bits in hashes) and len(set.union(*hashes)) == len(hashes)
+    assert hashes[4] == {edgewise.pixel_hash(draw())}
+
+
 def test_several_views_are_single_views():
     drawn = scene()
     frames = drawn.draw(CAMERAS, SIZE, ids=True)

@@ -57,6 +57,19 @@ def test_a_tri_file_is_drawn_as_by_the_program(tri, tmp_path):
     assert np.array_equal(edgewise.read_image(tmp_path / "ids.png"), edgewise.id_colours(drawn.draw(ids=True).payload))
 
 
+def test_an_exact_stream_comes_back_and_is_drawn_as_by_the_program(tmp_path):
+    path, vertices = tmp_path / "exact.tri", stream().vertices.astype(np.float64) + 2.0**-30
+    exact = edgewise.Stream(vertices, SIZE, exact=True)
+    exact.write_tri(path)
+    assert path.read_bytes()[:4] == b"TRI2" and path.stat().st_size == 16 + 76 * len(vertices)
+    again = edgewise.Stream.read_tri(path)
+    assert np.array_equal(again.vertices, vertices) and np.array_equal(again.colours, exact.colours)
+    for bits in (8, 15):
+        frame = exact.draw(subpixel_bits=bits)
+        assert same(frame, again.draw(subpixel_bits=bits))
+        assert program("hash", path, "--subpixel-bits", bits).split()[0] == f"{edgewise.pixel_hash(frame):016x}"
+
+
 def test_an_obj_file_is_drawn_as_by_the_program(obj, tmp_path):
     drawn = edgewise.Scene.read_obj(obj)
     assert list(drawn.first_ids()) == [0, 4]

@@ -105,6 +105,21 @@ def test_instance_ids_and_masks():
     assert len(drawn.instances) == 6 and np.array_equal(drawn.draw(CAMERA, SIZE, ids=True, cull="back").payload, frame.payload)
 
 
+@pytest.mark.parametrize("bits", [4, 12, 15])
+def test_what_frames_of_other_subpixel_bits_show(bits):
+    drawn, options = scene(), {"cull": "back", "subpixel_bits": bits}
+    frame = drawn.draw(CAMERA, SIZE, ids=True, **options)
+    assert frame.subpixel_bits == bits
+    instances, masks = drawn.instance_ids(frame), drawn.amodal_masks(CAMERA, SIZE, **options)
+    assert all(mask[instances == i].all() for i, mask in enumerate(masks))
+    fractions = drawn.visible_fraction(frame, CAMERA, **options)
+    assert np.array_equal(fractions, drawn.pixels_per_instance(frame) / masks.sum(axis=(1, 2)))
+    points = drawn.interpolate(frame, [mesh.positions for mesh in drawn.meshes], CAMERA, **options)
+    assert np.array_equal(np.isnan(points).all(axis=-1), frame.depth == edgewise.DEPTH_CLEAR)
+    uv, depth = stream().barycentrics(stream().draw(ids=True, subpixel_bits=bits), subpixel_bits=bits)
+    assert uv.max() <= 1 and depth.min() >= 0
+
+
 def test_without_instances():
     nothing = edgewise.Scene()
     frame = nothing.draw([CAMERA] * 2, SIZE, ids=True)

@@ -43,19 +43,23 @@ def lit_scene():
     return made
 
 
+def exact_stream():
+    return edgewise.Stream(stream().vertices.astype(np.float64) + 2.0**-30, SIZE, colours=stream().colours, exact=True)
+
+
 def hashes(drawn):
     views = [()] if isinstance(drawn, edgewise.Stream) else [(camera, SIZE) for camera in (CAMERA, drawn.camera(ASPECT))]
     return [edgewise.pixel_hash(drawn.draw(*view, cull=cull, ids=ids, threads=2))
             for view in views for cull in ("none", "back") for ids in (False, True)]
 
 
-@pytest.fixture(params=["scene", "lit", "near file", "far file", "stream", "nothing", "65,536 triangles"])
+@pytest.fixture(params=["scene", "lit", "near file", "far file", "stream", "exact stream", "nothing", "65,536 triangles"])
 def drawn(request, tmp_path):
     if request.param == "65,536 triangles":  # with clusters
         positions, indices, colours = triangles(1 << 16)
         return edgewise.Scene(positions * 0.1 + np.repeat(positions[::3], 3, axis=0), indices, colours=colours)
     return {"scene": scene, "lit": lit_scene, "near file": lambda: of_file(tmp_path, 0), "far file": lambda: of_file(tmp_path, 4e6),
-            "stream": stream, "nothing": edgewise.Scene}[request.param]()
+            "stream": stream, "exact stream": exact_stream, "nothing": edgewise.Scene}[request.param]()
 
 
 @pytest.mark.parametrize("how", COPIES)
@@ -120,6 +124,8 @@ def test_getters_give_copies():
     assert (hashes(made), hashes(flat)) == before
     again = edgewise.Stream(flat.vertices, flat.size, colours=flat.colours)
     assert flat.vertices.shape == (40, 3, 3) and flat.colours.shape == (40,) and hashes(again) == hashes(flat)
+    exact = exact_stream()
+    assert np.array_equal(exact.vertices, flat.vertices.astype(np.float64) + 2.0**-30) and exact.vertices.dtype == np.float64
     meshes = made.meshes
     del made
     gc.collect()

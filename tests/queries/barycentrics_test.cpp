@@ -495,6 +495,19 @@ TEST(Barycentrics, InterpolatedPositionsProjectToThePixel) {
   }
 }
 
+// By a pixel's depth, even where both cover the same pixels.
+TEST(Barycentrics, FindFramesOfOtherSubpixelBits) {
+  for (const auto& family : randomized::scene_families()) {
+    Random random(3);
+    Shown shown(family.make(random, 90, 60), {.width = 90, .height = 60, .cull = Cull::none});
+    for (const int bits : {4, 7, 9, 15}) {
+      shown.options.subpixel_bits = bits;
+      EXPECT_NE(message_of([&] { shown.planes(); }).find("does not cover it at its depth"), std::string::npos)
+          << family.name << ' ' << bits;
+    }
+  }
+}
+
 // A triangle in the middle of the image, and one that the camera does not see.
 Scene two_triangles() {
   Scene scene;
@@ -568,7 +581,7 @@ TEST(Barycentrics, RejectsWhatDoesNotFit) {
     const auto on_threads = [&](auto&& change) {
       return message([&](Call& c) { c.execution.threads = threads, change(c); });
     };
-    constexpr const char* kElsewhere = " has id 0, of a triangle that does not cover it";
+    constexpr const char* kElsewhere = " has id 0, of a triangle that does not cover it at its depth";
     EXPECT_EQ(on_threads([&](Call& c) { scene(c).camera.yaw = 2.0f; }), "pixel " + first + kElsewhere);
     EXPECT_EQ(on_threads([&](Call& c) { c.options.cull = Cull::front; }), "pixel " + first + kElsewhere);
     EXPECT_EQ(on_threads([&](Call& c) { scene(c).meshes[0].positions.resize(2); }),

@@ -109,6 +109,7 @@ TEST(CInterface, DrawsTheSamePictures) {
     edgewise_options options = edgewise_default_options();
     options.cull = trial % 4;
     options.ids = trial & 4, options.unlit = trial & 8, options.keep = trial & 16;
+    options.subpixel_bits = 4 + trial % 12;
     options.threads = 1 + trial % 3, options.background = 0xFF000001u + static_cast<std::uint32_t>(trial);
     const int scissor[] = {5, 9, 40, 21};
     if ((trial & 32) != 0) std::copy_n(scissor, 4, options.scissor);
@@ -116,6 +117,7 @@ TEST(CInterface, DrawsTheSamePictures) {
     FrontendOptions o{
         .width = kWidth, .height = kHeight, .cull = kCull[trial % 4], .shade = options.unlit == 0};
     o.payload = options.ids != 0 ? Payload::id : Payload::colour;
+    o.subpixel_bits = options.subpixel_bits;
     RenderPass pass{options.background, options.keep == 0};
     if ((trial & 32) != 0) pass.scissor = {5, 9, 40, 21};
     Planes actual, expected;
@@ -268,6 +270,10 @@ TEST(CInterface, TellsWhatIsSeen) {
   barycentrics(frame.view(), both.scene, o, {uv2.data(), 2 * kWidth, distance2.data(), kWidth});
   EXPECT_EQ(uv, uv2);
   EXPECT_EQ(distance, distance2);
+  options.subpixel_bits = 9;
+  EXPECT_EQ(edgewise_barycentrics(both.c, &options, frame.c(), uv.data(), 2 * kWidth, nullptr, 0),
+            EDGEWISE_INVALID_ARGUMENT);
+  options.subpixel_bits = 8;
 
   for (const double z : {-0.1, -40.0}) {
     const double low[] = {-0.1, -0.1, z}, high[] = {0.1, 0.1, z + 0.05};
@@ -386,10 +392,13 @@ TEST(CInterface, TellsErrorsAndChangesNothing) {
     EXPECT_EQ(frame, before);
   };
   edgewise_options options = edgewise_default_options();
+  EXPECT_EQ(options.subpixel_bits, 8);
   options.threads = 0;
   fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "0 threads");
   options = edgewise_default_options(), options.cull = 4;
   fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "EDGEWISE_CULL_BOTH");
+  options = edgewise_default_options(), options.subpixel_bits = 16;
+  fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "16 subpixel bits are outside 4 to 15");
   options = edgewise_default_options(), options.scissor[2] = -1;
   fails(edgewise_draw(renderer.c, both.c, &options, frame.c()), "negative");
   fails(edgewise_draw(nullptr, both.c, nullptr, frame.c()), "renderer is null");

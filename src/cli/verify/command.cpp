@@ -132,15 +132,17 @@ are at most 7.5 million.
 
 Columns: triangles submitted; triangles emitted by the front end, over all culling modes; frames
 compared; pixels that differ; pixels that differ from the oracle.
-On a difference, verify writes pictures and a .tri file that reproduces it, and exits with 1.
+On a difference, verify writes pictures and a .tri file that reproduces it (with the same
+--subpixel-bits), and exits with 1.
 
 With --random it draws random and adversarial cases instead, until the time limit or Ctrl-C: lists
 of triangles, and scenes around the camera that go through the front end. Each case is drawn on one
 thread and on several, with random tile sizes, strides, alignments and optimizations switched off.
 The front end is compared with its own code for single triangles. Verify describes a case's first
 difference of each backend, of the front end and from the oracle, up to 20 differences in all. For
-each it writes a .tri file with as few triangles as possible, unless only a scene shows it. --json
-writes one line, and scripts/reporting/shards.py adds lines up.
+each it writes a .tri file with as few triangles as possible, unless only a scene shows it. To draw
+such a file as it was, add --subpixel-bits 15. --json writes one line, and
+scripts/reporting/shards.py adds lines up.
 
 A case depends on the seed and its number alone. Case k of shard I/N is number I + k N, so shards
 are disjoint. A shard draws one case at a time: run one per core. On a signal, verify writes its
@@ -156,13 +158,14 @@ Action add_verify(CLI::App& command) {
   command.add_flag("--full", o->plan.full, "1920x1080, and streams with all their triangles");
   add_size(command, o->plan.size, "Image size (509x283; for .tri files their own)");
   command.add_flag("--fit", o->plan.fit, "Centre meshes and scale their longest side to 2");
+  add_subpixel_bits(command, o->plan.subpixel_bits);
   add_text(command, "--json", "FILE", o->json,
            "Also write all results as JSON; - for stdout, instead of the table");
   add_text(command, "--out", "DIR", o->out,
            "Folder for files that show differences (edgewise-verify-failures)");
   CLI::Option* const random =
       command.add_flag("--random", o->random, "Random and adversarial cases instead of scenes");
-  for (const char* of_scenes : {"SCENE", "--full", "--size", "--fit"})
+  for (const char* of_scenes : {"SCENE", "--full", "--size", "--fit", "--subpixel-bits"})
     random->excludes(command.get_option(of_scenes));
   randomized::Plan& plan = o->random_plan;
   const auto add = [&](const char* name, const char* type, const char* help, auto parse) {

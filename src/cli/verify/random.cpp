@@ -73,15 +73,15 @@ void draw_in_parts(Backend& backend, std::span<const ScreenTriangle> triangles, 
   }
 }
 
-// The triangles after writing and reading them as a stream, which rounds depths to floats.
+// The triangles after writing and reading them as a stream, which may round depths to floats.
 std::vector<ScreenTriangle> replayed(const Case& c) {
   Frontend frontend;
-  const auto again =
-      frontend.run(lab::to_stream(c.triangles, c.width, c.height), {.width = c.width,
-                                                                    .height = c.height,
-                                                                    .cull = Cull::none,
-                                                                    .shade = false,
-                                                                    .subpixel_bits = kMaxSubpixelBits});
+  const FrontendOptions options{.width = c.width,
+                                .height = c.height,
+                                .cull = Cull::none,
+                                .shade = false,
+                                .subpixel_bits = kMaxSubpixelBits};
+  const auto again = frontend.run(lab::to_stream(c.triangles, c.width, c.height), options);
   return {again.begin(), again.end()};
 }
 
@@ -278,18 +278,22 @@ class Checker {
       const auto* whole = std::get_if<TriangleStream>(&*c.drawable);
       if (whole == nullptr) return {};
       stream = *whole;
-      stream.triangles = reduced(whole->triangles, [&](const std::vector<StreamTriangle>& list) {
-        Case other = c;
-        other.drawable = TriangleStream{whole->width, whole->height, list};
-        return differs(other, probe);
-      });
+      const auto reduce = [&](auto TriangleStream::*list) {
+        stream.*list = reduced(stream.*list, [&](const auto& fewer) {
+          Case other = c;
+          TriangleStream with_fewer = stream;
+          with_fewer.*list = fewer;
+          other.drawable = std::move(with_fewer);
+          return differs(other, probe);
+        });
+      };
+      reduce(&TriangleStream::triangles), reduce(&TriangleStream::exact);
     }
     std::filesystem::create_directories(path.parent_path());
     AtomicFile file(path);
     write_tri(file.stream(), stream);
     file.commit();
-    return fmt::format("  {} of its triangles show it: {}\n", stream.triangles.size(),
-                       tools::printable(path.string()));
+    return fmt::format("  {} of its triangles show it: {}\n", stream.size(), tools::printable(path.string()));
   } catch (const std::exception& error) {
     // Report the difference even if its file cannot be written.
     return fmt::format("  no file: {}\n", tools::printable(tools::reason_of(error)));

@@ -137,7 +137,7 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
 }
 
 nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan) {
-  nlohmann::json json{{"full", plan.full}, {"ok", report.ok()}};
+  nlohmann::json json{{"full", plan.full}, {"subpixel_bits", plan.subpixel_bits}, {"ok", report.ok()}};
   for (const BackendInfo& backend : plan.backends) json["backends"].push_back(backend.name);
   json["threads"] = plan.threads;
   for (const SimdTarget target : supported_targets()) json["simd_targets"].push_back(name_of(target));

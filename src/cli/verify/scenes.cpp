@@ -24,6 +24,7 @@ Shot load(const VerifyPlan& plan, const std::string& name, std::optional<Size> s
   options.size = size;
   options.scale = scale;
   options.fit = plan.fit;
+  options.subpixel_bits = plan.subpixel_bits;
   return load_shot(name, options, 0.0);
 }
 
@@ -36,19 +37,20 @@ Shot load_thinned(const VerifyPlan& plan, const std::string& name, Size size, do
 }
 
 bool is_affordable(const TriangleStream& stream) {
-  return static_cast<double>(stream.triangles.size()) * stream.width * stream.height <= kOracleBudget;
+  return static_cast<double>(stream.size()) * stream.width * stream.height <= kOracleBudget;
 }
 
 // Every n-th triangle of a file's stream, scaled to a smaller image.
 TriangleStream shrunk(const TriangleStream& stream, Size size, std::size_t most) {
-  const std::size_t step = (stream.triangles.size() + most - 1) / most;
+  const std::size_t step = (stream.size() + most - 1) / most;
   const glm::vec3 factor(static_cast<float>(size.width) / static_cast<float>(stream.width),
                          static_cast<float>(size.height) / static_cast<float>(stream.height), 1.0f);
   TriangleStream small{size.width, size.height, {}};
-  for (std::size_t i = 0; i < stream.triangles.size(); i += step) {
-    StreamTriangle& triangle = small.triangles.emplace_back(stream.triangles[i]);
-    for (glm::vec3& vertex : triangle.vertex) vertex *= factor;
-  }
+  const auto append = [&](const auto& list, auto& to) {
+    for (std::size_t i = 0; i < list.size(); i += step)
+      for (auto& vertex : to.emplace_back(list[i]).vertex) vertex *= factor;
+  };
+  append(stream.triangles, small.triangles), append(stream.exact, small.exact);
   return small;
 }
 

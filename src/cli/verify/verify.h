@@ -24,6 +24,7 @@ struct VerifyPlan {
   std::optional<Size> size;  // none: prime sides, or the size of a .tri file
   bool full = false;         // 1920×1080, and built-in streams with all their triangles
   bool fit = false;          // see load_source
+  int subpixel_bits = FrontendOptions().subpixel_bits;
   std::filesystem::path
       failure_folder;  // for pictures of differences; created when needed; empty: no pictures
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene

@@ -43,7 +43,7 @@ std::span<const DepthFormat> depth_formats();
 const DepthFormat& find_depth_format(std::string_view name);
 
 struct Conformance {
-  int subpixel_bits = 8;     // 1 … 8, as finely as the judged picture is drawn
+  int subpixel_bits = 8;     // 1 … kMaxSubpixelBits; a judged picture of ours has at least as many
   int transform_ulps = 2;    // 0 … 1000
   int guard_band_px = 3000;  // beyond each side of the picture; 0 … 2^20
   DepthFormat depth = find_depth_format("d24_unorm");

@@ -6,7 +6,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/grid.h"
 #include "core/nearest_name.h"
 #include "core/parallel.h"
 #include "edgewise/contract.h"
@@ -182,9 +181,9 @@ void check(std::span<const PortableTriangle> triangles, int width, int height, c
   if (width < 1 || height < 1 || width > contract::kMaxImageSide || height > contract::kMaxImageSide)
     throw std::invalid_argument("the size of a picture must be 1 to " +
                                 std::to_string(contract::kMaxImageSide) + " px on each side");
-  if (model.subpixel_bits < 1 || model.subpixel_bits > Coarse::kSubBits)
-    throw std::invalid_argument("subpixel bits must be 1 to " + std::to_string(Coarse::kSubBits) +
-                                ": the library draws no more yet");
+  if (model.subpixel_bits < 1 || model.subpixel_bits > kMaxSubpixelBits)
+    throw std::invalid_argument("subpixel bits must be 1 to " + std::to_string(kMaxSubpixelBits) +
+                                ", the most that the library draws");
   if (model.transform_ulps < 0 || model.transform_ulps > 1000)
     throw std::invalid_argument("units in the last place must be 0 to 1000");
   if (model.guard_band_px < 0 || model.guard_band_px > kMostPx)
@@ -193,6 +192,13 @@ void check(std::span<const PortableTriangle> triangles, int width, int height, c
     for (int i = 0; i < 3; ++i)
       if (!(std::abs(double{t.at.x_px[i]}) <= kMostPx && std::abs(double{t.at.y_px[i]}) <= kMostPx))
         throw std::invalid_argument("coordinates must lie within 2^20 px");
+}
+
+double largest_px(const UnsnappedTriangle& t) {
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i)
+    largest = std::max({largest, std::abs(double{t.x_px[i]}), std::abs(double{t.y_px[i]})});
+  return largest;
 }
 
 // The errors of vertices that clipping made. A coordinate c of such a vertex is interpolated from vertices a
@@ -218,13 +224,9 @@ class ClipErrors {
         of.add({v.x, v.y, depth_scale * (v.w - least_w_), v.w});
       }
     } else {
-      for (const glm::vec3 v : std::get<TriangleStream>(drawable_).triangles[t.id].vertex)
-        of.add({v.x, v.y, v.z, 1.0f});
+      for (const glm::dvec3 v : std::get<TriangleStream>(drawable_).at(t.id).vertex) of.add({v, 1.0});
     }
-    double largest_px = 0.0;
-    for (int i = 0; i < 3; ++i)
-      largest_px = std::max({largest_px, std::abs(double{t.at.x_px[i]}), std::abs(double{t.at.y_px[i]})});
-    t.position_error_px = kClipError * (of.position + largest_px * of.w) / least_w_;
+    t.position_error_px = kClipError * (of.position + largest_px(t.at) * of.w) / least_w_;
     t.depth_error = kClipError * (of.depth + of.w) / least_w_;
   }
 
@@ -306,6 +308,8 @@ std::vector<PortableTriangle> portable_triangles(const Drawable& drawable, Front
   options.keep_unsnapped = options.keep_states = true;
   const auto triangles = frontend.run(drawable, options);
   ClipErrors clip_errors(drawable, options);
+  const auto* stream = std::get_if<TriangleStream>(&drawable);
+  const bool in_double = options.subpixel_bits > 8 || (stream != nullptr && !stream->exact.empty());
   std::vector<PortableTriangle> result;
   result.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -314,6 +318,7 @@ std::vector<PortableTriangle> portable_triangles(const Drawable& drawable, Front
                        frontend.states()[id] == TriangleState::clipped};
     t.clipped = t.clipped || touches_near(t.at) || touches_far(t.at);
     if (t.clipped) clip_errors.add_to(t);
+    if (in_double) t.position_error_px += ulp_of(std::max(1.0, largest_px(t.at))) / 2;  // rounded to floats
     // Our depth comes from the view distance, not from z / w.
     for (int k = 0; k < 3; ++k)
       t.depth_error =

@@ -161,9 +161,10 @@ class _Drawable:
         """
         return self._native.pixels_per_triangle(*_check.frame(frame))
 
-    def _draw(self, cameras: list[Camera], several: bool, size: tuple[int, int], first_id: int, cull: str, shade: bool,
-              threads: int, backend: str, ids: bool, background: int | None, scissor: tuple[int, int, int, int] | None,
-              onto: Frame | None, clear: bool, depth_only: bool, progress: Callable[[int], object] | None) -> Frame:
+    def _draw(self, cameras: list[Camera], several: bool, size: tuple[int, int], first_id: int, cull: str, subpixel_bits: int,
+              shade: bool, threads: int, backend: str, ids: bool, background: int | None,
+              scissor: tuple[int, int, int, int] | None, onto: Frame | None, clear: bool, depth_only: bool,
+              progress: Callable[[int], object] | None) -> Frame:
         width, height = _check.size(size)
         shape = (*((len(cameras),) if several else ()), height, width)
         ids, shade, clear, depth_only = _check.flags(ids=ids, shade=shade, clear=clear, depth_only=depth_only)
@@ -171,7 +172,7 @@ class _Drawable:
             background = BACKGROUND_ID if ids else BLACK
         if scissor is not None:
             scissor = _check.integers(scissor, "scissor", 4, -_check.INT_MAX, _check.INT_MAX)
-        options = (*_check.id_options(first_id, cull, threads), shade, _check.text(backend, "backend"),
+        options = (*_check.id_options(first_id, cull, subpixel_bits, threads), shade, _check.text(backend, "backend"),
                    _check.integer(background, "background", 0, _check.UINT_MAX))
         _check.callback(progress, "progress")
         if onto is None:
@@ -187,6 +188,7 @@ class _Drawable:
         frame.stats = Stats(**self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth,
                                                 ids, *options, clear or onto is None, scissor, progress))
         frame.has_ids = getattr(onto, "has_ids", None) if depth_only else ids
+        frame.subpixel_bits = subpixel_bits
         return frame
 
 
@@ -295,7 +297,7 @@ class Scene(_Drawable):
     def draw(self, camera: Camera | Sequence[Camera], size: tuple[int, int], *, ids: bool = False, first_id: int = 0,
              cull: str = "none", shade: bool = True, threads: int = 1, backend: str = "tiled", background: int | None = None,
              scissor: tuple[int, int, int, int] | None = None, onto: Frame | None = None, clear: bool = False,
-             depth_only: bool = False, progress: Callable[[int], object] | None = None) -> Frame:
+             depth_only: bool = False, subpixel_bits: int = 8, progress: Callable[[int], object] | None = None) -> Frame:
         """Draws the scene, seen by one camera or by several.
 
         size: width, height in pixels, at most 16384.
@@ -312,15 +314,16 @@ class Scene(_Drawable):
           may exceed DEPTH_CLEAR.
         clear: clears `onto` first, inside the scissor.
         depth_only: neither makes nor writes payloads.
+        subpixel_bits: x and y of vertices are rounded to multiples of 2**-subpixel_bits pixels: 4 to 15.
         progress: is called between views, at most 20 times a second, and at the end, with the number of views just done, as
           tqdm's update is. What it raises ends the draw, as Ctrl-C does. Meanwhile it and other threads may use the scene;
           later views show their changes.
         """
-        return self._draw(_check.cameras(camera, "camera"), not isinstance(camera, Camera), size, first_id, cull, shade,
-                          threads, backend, ids, background, scissor, onto, clear, depth_only, progress)
+        return self._draw(_check.cameras(camera, "camera"), not isinstance(camera, Camera), size, first_id, cull, subpixel_bits,
+                          shade, threads, backend, ids, background, scissor, onto, clear, depth_only, progress)
 
     def barycentrics(self, frame: Frame, camera: Camera | Sequence[Camera], *, first_id: int = 0, cull: str = "none",
-                     threads: int = 1, progress: Callable[[int], object] | None = None,
+                     threads: int = 1, subpixel_bits: int = 8, progress: Callable[[int], object] | None = None,
                      ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Perspective-correct coordinates of the triangle's point that each pixel of a frame of ids shows.
 
@@ -331,11 +334,12 @@ class Scene(_Drawable):
         0 and infinity. u and v err by less than 2**-25 + 2**-47 + e / 2. The distance's relative error is below
         2**-24 + 2**-48 + e. Here e is 2**-20 times the largest ratio of a vertex's distance from the camera to its w, usually
         below 2**-19; 0 for a stream (barycentrics.h). progress: as for draw().
-        ValueError if the frame shows something else than this scene, seen by this camera, with this culling. If it was drawn
-        over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
+        ValueError if the frame shows something else than this scene, seen by this camera, with this culling and these subpixel
+        bits. If it was drawn over another, pass a copy in which the pixels of the other have the depth DEPTH_CLEAR.
         """
-        return self._native.barycentrics(*_check.matrices(_check.cameras(camera, "camera")), *_check.frame(frame),
-                                         *_check.id_options(first_id, cull, threads), _check.callback(progress, "progress"))
+        return self._native.barycentrics(*_check.matrices(_check.cameras(camera, "camera")),
+                                         *_check.id_frame(frame, first_id, cull, subpixel_bits, threads),
+                                         _check.callback(progress, "progress"))
 
     def objects(self) -> dict[str, NDArray[np.uint32]]:
         """The ids of the triangles of each object and group that an OBJ file names, ascending, through all instances.
@@ -381,10 +385,12 @@ class Scene(_Drawable):
 class Stream(_Drawable):
     """Triangles that are already on the screen."""
 
-    def __init__(self, vertices: ArrayLike, size: tuple[int, int], *, colours: ArrayLike | None = None):
+    def __init__(self, vertices: ArrayLike, size: tuple[int, int], *, colours: ArrayLike | None = None, exact: bool = False):
         """vertices: shape (n, 3, 3), float32: per triangle and vertex, x and y in pixels, y down, and z in 0 ... 1, where
-        smaller z is nearer. size: width, height in pixels of the image they are made for. colours: as Scene.add_mesh()."""
-        self._native = _native.Drawable(_check.array(vertices, "vertices", np.float32),
+        smaller z is nearer. size: width, height in pixels of the image they are made for. colours: as Scene.add_mesh().
+        exact: keeps float64, for positions that float32 would round, as it does those of 15 subpixel bits beyond 512 px."""
+        kept = np.float64 if _check.flags(exact=exact)[0] else np.float32
+        self._native = _native.Drawable(_check.array(vertices, "vertices", kept),
                                         None if colours is None else _colours(colours), *_check.size(size))
 
     @classmethod
@@ -395,7 +401,7 @@ class Stream(_Drawable):
         return stream
 
     def write_tri(self, path: _Path) -> None:
-        """Writes a .tri file. OSError if it cannot be written."""
+        """Writes a .tri file: TRI1, or TRI2 if vertices are float64. OSError if it cannot be written."""
         self._native.write_tri(_check.path(path, "path"))
 
     @property
@@ -404,8 +410,8 @@ class Stream(_Drawable):
         return self._native.size()
 
     @property
-    def vertices(self) -> NDArray[np.float32]:
-        """The vertices, as the constructor takes them, copied."""
+    def vertices(self) -> NDArray[np.float32] | NDArray[np.float64]:
+        """The vertices, as the constructor takes them, copied; float64 if they are exact, or read from a TRI2 file."""
         return self._native.arrays()[0]
 
     @property
@@ -416,17 +422,17 @@ class Stream(_Drawable):
     def draw(self, size: tuple[int, int] | None = None, *, ids: bool = False, first_id: int = 0, cull: str = "none",
              threads: int = 1, backend: str = "tiled", background: int | None = None,
              scissor: tuple[int, int, int, int] | None = None, onto: Frame | None = None, clear: bool = False,
-             depth_only: bool = False) -> Frame:
+             depth_only: bool = False, subpixel_bits: int = 8) -> Frame:
         """Draws the triangles, unlit. size: by default the stream's; a smaller one crops the picture. The other arguments
         are those of Scene.draw()."""
-        return self._draw([], False, self.size if size is None else size, first_id, cull, False, threads, backend, ids,
-                          background, scissor, onto, clear, depth_only, None)
+        return self._draw([], False, self.size if size is None else size, first_id, cull, subpixel_bits, False, threads, backend,
+                          ids, background, scissor, onto, clear, depth_only, None)
 
-    def barycentrics(self, frame: Frame, *, first_id: int = 0, cull: str = "none",
-                     threads: int = 1) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    def barycentrics(self, frame: Frame, *, first_id: int = 0, cull: str = "none", threads: int = 1,
+                     subpixel_bits: int = 8) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """As Scene.barycentrics(); the distance is the depth in 0 ... 1."""
-        return self._native.barycentrics(*_check.matrices([]), *_check.frame(frame),
-                                         *_check.id_options(first_id, cull, threads), None)
+        return self._native.barycentrics(*_check.matrices([]), *_check.id_frame(frame, first_id, cull, subpixel_bits, threads),
+                                         None)
 
     def needs(self, size: tuple[int, int] | None = None, **options: Any) -> lab.Needs:
         """edgewise.lab.needs() of this stream."""

@@ -158,5 +158,14 @@ def threads(value: Any) -> int:
     return integer(value, "threads", 1, _native.MAX_THREADS)
 
 
-def id_options(first_id: Any, cull: Any, given_threads: Any) -> tuple[int, str, int]:
-    return integer(first_id, "first_id", 0, UINT_MAX), text(cull, "cull"), threads(given_threads)
+def id_options(first_id: Any, cull: Any, subpixel_bits: Any, given_threads: Any) -> tuple[int, str, int, int]:
+    return (integer(first_id, "first_id", 0, UINT_MAX), text(cull, "cull"),
+            integer(subpixel_bits, "subpixel_bits", _native.MIN_SUBPIXEL_BITS, _native.MAX_SUBPIXEL_BITS), threads(given_threads))
+
+
+def id_frame(given: Any, first_id: Any, cull: Any, subpixel_bits: Any, given_threads: Any) -> tuple[Any, ...]:
+    """A frame's planes, and the options of its draw."""
+    planes, options = frame(given), id_options(first_id, cull, subpixel_bits, given_threads)
+    if getattr(given, "subpixel_bits", None) not in (None, subpixel_bits):
+        raise ValueError(f"subpixel_bits is {subpixel_bits}, but the frame was drawn with {given.subpixel_bits}")
+    return *planes, *options

@@ -54,7 +54,7 @@ class Stats(NamedTuple):
     clipped_guard: int  # those that cross a side of the guard band
     pieces: int  # triangles after clipping
     culled: int  # pieces dropped for their facing
-    zero_area: int  # pieces dropped: no area once rounded to 1/256 px
+    zero_area: int  # pieces dropped: no area once vertices are rounded
     emitted: int  # pieces drawn
 
 
@@ -69,11 +69,12 @@ class Frame(_Planes):
     payload: uint32, ids or colours 0xAABBGGRR; None if only depth was drawn. An id is the number of a triangle, counted
     through the instances in order. Colours in memory are R, G, B, A: payload[..., None].view(np.uint8).
     depth: uint32, smaller is nearer; depth01() and metric_depth() convert it.
-    stats: the counts of the draw that returned it. has_ids: whether that draw wrote ids, not colours. None for a Frame
-    that no draw made.
+    stats: the counts of the draw that returned it. has_ids: whether that draw wrote ids, not colours. subpixel_bits: those of
+    that draw. None for a Frame that no draw made.
     """
     stats: Stats | None = None
     has_ids: bool | None = None
+    subpixel_bits: int | None = None
 
     def _repr_png_(self) -> bytes | None:
         """The picture that a notebook shows: colours, or id_colours(); views one below the other, 16384 px at most."""
@@ -151,28 +152,30 @@ def instance_ids(self: edgewise.Scene, frame: Frame) -> NDArray[np.uint32]:
 
 
 def amodal_masks(self: edgewise.Scene, camera: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
-                 threads: int = 1, progress: Callable[[int], object] | None = None) -> NDArray[np.bool_]:
+                 threads: int = 1, subpixel_bits: int = 8,
+                 progress: Callable[[int], object] | None = None) -> NDArray[np.bool_]:
     """The pixels that each instance would cover if it were alone: shape (instances, height, width) or (views, instances,
     height, width). Arguments as for draw(). Draws each instance once per camera; progress() counts these draws."""
     width, height = _check.size(size)
     camera = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
-    masks = list(_alone(self, camera, (width, height), cull, threads, progress))
+    masks = list(_alone(self, camera, (width, height), cull, threads, subpixel_bits, progress))
     several = () if isinstance(camera, Camera) else (len(camera),)
     return np.stack(masks, axis=-3) if masks else np.empty((*several, 0, height, width), np.bool_)
 
 
 def visible_fraction(self: edgewise.Scene, frame: Frame, camera: Camera | Sequence[Camera], *, cull: str = "none",
-                     threads: int = 1, progress: Callable[[int], object] | None = None) -> NDArray[np.float64]:
+                     threads: int = 1, subpixel_bits: int = 8,
+                     progress: Callable[[int], object] | None = None) -> NDArray[np.float64]:
     """The pixels that a frame shows of each instance, divided by those of its amodal mask: shape (instances,) or (views,
     instances). 0 if the mask is empty. What lies beyond the picture counts in neither.
 
-    frame, camera and cull: of one draw of ids from 0 on, of this scene alone. progress: as for amodal_masks().
+    frame, camera, cull and subpixel_bits: of one draw of ids from 0 on, of this scene alone. progress: as for amodal_masks().
     """
     frame = _check.frame(frame)
     camera = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
     visible = self.pixels_per_instance(frame)
     height, width = frame.depth.shape[-2:]
-    alone = [mask.sum(axis=(-2, -1)) for mask in _alone(self, camera, (width, height), cull, threads, progress)]
+    alone = [mask.sum(axis=(-2, -1)) for mask in _alone(self, camera, (width, height), cull, threads, subpixel_bits, progress)]
     whole = np.stack(alone, axis=-1) if alone else np.zeros(visible.shape)
     if whole.shape != visible.shape:
         raise ValueError(f"the frame has the shape {frame.depth.shape}, for {len(_check.cameras(camera, 'camera'))} cameras")
@@ -180,13 +183,13 @@ def visible_fraction(self: edgewise.Scene, frame: Frame, camera: Camera | Sequen
 
 
 def interpolate(self: edgewise.Scene, frame: Frame, attribute: ArrayLike | Sequence[ArrayLike],
-                camera: Camera | Sequence[Camera], *, cull: str = "none", threads: int = 1,
+                camera: Camera | Sequence[Camera], *, cull: str = "none", threads: int = 1, subpixel_bits: int = 8,
                 progress: Callable[[int], object] | None = None) -> NDArray[np.floating[Any]]:
     """A vertex attribute at each pixel, perspective-correct: shape (height, width, k) or (views, height, width, k).
 
     attribute: for a scene of one mesh, an ndarray of shape (n,), (n, k) or (n, ...), numbers, with a row per vertex; else a
-    list or tuple with one per mesh. ValueError for others. frame, camera and cull: of one draw of ids from 0 on, of this scene
-    alone. Background: NaN. The result has the arrays' type, or a float type that holds it; the weights are those of
+    list or tuple with one per mesh. ValueError for others. frame, camera, cull and subpixel_bits: of one draw of ids from 0 on,
+    of this scene alone. Background: NaN. The result has the arrays' type, or a float type that holds it; the weights are those of
     barycentrics(), as is progress.
     """
     meshes = self._native.triangles()
@@ -201,7 +204,7 @@ def interpolate(self: edgewise.Scene, frame: Frame, attribute: ArrayLike | Seque
         if array.shape != (vertices, *rest):
             raise ValueError(f"attribute: that of mesh {i} has the shape {array.shape} instead of {(vertices, *rest)}")
     drawn, triangles, instances = _shown(self, frame)
-    uv, _ = self.barycentrics(frame, camera, cull=cull, threads=threads, progress=progress)
+    uv, _ = self.barycentrics(frame, camera, cull=cull, threads=threads, subpixel_bits=subpixel_bits, progress=progress)
     result = np.full((*drawn.shape, *rest), np.nan, np.result_type(np.float32, *arrays))
     if triangles.size:
         of_instance = np.array([mesh for mesh, _ in self.instances])[instances]
@@ -228,7 +231,7 @@ def _shown(self: edgewise.Scene, frame: Frame) -> tuple[NDArray[np.bool_], NDArr
 
 
 def _alone(self: edgewise.Scene, camera: Camera | Sequence[Camera], size: tuple[int, int], cull: str, threads: int,
-           progress: Callable[[int], object] | None) -> Iterator[NDArray[np.bool_]]:
+           subpixel_bits: int, progress: Callable[[int], object] | None) -> Iterator[NDArray[np.bool_]]:
     """Whether each pixel is drawn if an instance is alone, for each."""
     alone = edgewise.Scene()  # not a copy of self, whose class may draw otherwise
     alone._native = copy.deepcopy(self._native)
@@ -237,5 +240,6 @@ def _alone(self: edgewise.Scene, camera: Camera | Sequence[Camera], size: tuple[
         alone.remove_instance(i)
     for instance in instances:
         alone.add_instance(*instance)
-        yield alone.draw(camera, size, cull=cull, threads=threads, depth_only=True, progress=progress).depth != DEPTH_CLEAR
+        yield alone.draw(camera, size, cull=cull, threads=threads, depth_only=True, subpixel_bits=subpixel_bits,
+                         progress=progress).depth != DEPTH_CLEAR
         alone.remove_instance(0)
