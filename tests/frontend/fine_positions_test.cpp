@@ -126,7 +126,7 @@ TEST(FinePositions, AreWithinTheContractsBound) {
       const Case c = make_case(random, kind, away, distance, size);
       const ScreenTransform to_screen = c.to_screen();
       const auto triangles = frontend.run(
-          c.scene, {.width = kWidth, .height = kHeight, .subpixel_bits = 15, .cull = Cull::none});
+          c.scene, {.width = kWidth, .height = kHeight, .cull = Cull::none, .subpixel_bits = 15});
       const bool is_drawn = frontend.stats().clipped == 0 && !triangles.empty();
       for (int k = 0; k < 3; ++k) {
         const glm::vec3 position = c.scene.meshes[0].positions[static_cast<std::size_t>(k)];
@@ -177,7 +177,7 @@ TEST(FinePositions, OfNewVerticesLieOnTheirEdges) {
       const auto& positions = c.scene.meshes[0].positions;
       const Homogeneous corners[] = {c.exact(positions[0]), c.exact(positions[1]), c.exact(positions[2])};
       const auto triangles = frontend.run(
-          c.scene, {.width = kWidth, .height = kHeight, .subpixel_bits = 15, .cull = Cull::none});
+          c.scene, {.width = kWidth, .height = kHeight, .cull = Cull::none, .subpixel_bits = 15});
       if (frontend.stats().clipped == 0) continue;
       for (const ScreenTriangle& t : triangles)
         for (int k = 0; k < 3; ++k) {

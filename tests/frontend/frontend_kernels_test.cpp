@@ -199,7 +199,7 @@ TEST(FrontendKernels, StreamsInDoubleAreRoundedOnce) {
     }
     const auto triangles =
         run(stream,
-            {.width = 640, .height = 480, .subpixel_bits = bits, .cull = Cull::none, .payload = Payload::id})
+            {.width = 640, .height = 480, .cull = Cull::none, .payload = Payload::id, .subpixel_bits = bits})
             .triangles;
     EXPECT_GT(triangles.size(), 900u);
     for (const ScreenTriangle& t : triangles)
