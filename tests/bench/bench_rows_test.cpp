@@ -71,8 +71,11 @@ SuiteOptions only(std::vector<std::string> scenes) {
 TEST(BenchSuite, DrawsAllScenesWithTheSubpixelBits) {
   SuiteOptions options;
   options.subpixel_bits = 13;
-  for (const Row& row : make_suite(options))
-    if (row.workload) EXPECT_EQ(row.workload->frontend_options().subpixel_bits, 13) << row.name;
+  for (const Row& row : make_suite(options)) {
+    if (row.workload) {
+      EXPECT_EQ(row.workload->frontend_options().subpixel_bits, 13) << row.name;
+    }
+  }
 }
 
 TEST(BenchSuite, RefusesTwoSourcesOfOneName) {

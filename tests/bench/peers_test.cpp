@@ -98,7 +98,9 @@ TEST(PeerScene, GivesEachTriangleItsOwnLastVertex) {
       const PeerMesh& peer = made.meshes[m];
       const ScreenTransform seen({given.camera, made.width, made.height},
                                  model_matrix(mesh, given.instances[m]));
-      const auto relative = [&](std::uint32_t vertex) { return mesh.positions[vertex] - seen.origin; };
+      const auto relative = [&](std::uint32_t vertex) {
+        return mesh.positions[vertex] - glm::vec3(seen.origin);
+      };
       ASSERT_EQ(peer.indices.size(), 3 * mesh.triangles.size());
       EXPECT_LE(peer.positions.size(), mesh.positions.size() + mesh.triangles.size());
       for (std::size_t i = 0; i < mesh.triangles.size(); ++i, ++id) {
