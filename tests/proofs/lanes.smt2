@@ -69,17 +69,17 @@
 (assert (not (= ((_ extract 31 0) (bvlshr v (_ bv33 64))) ((_ extract 31 0) (bvashr v (_ bv33 64))))))
 
 ;; claim edge_products: In the set-up for a tile, every factor fits 32 bits and every sum stays below 2^62: the first
-;;   edge value, its rise to the last pixel of a box in the tile, and the sum of both.
+;;   edge value, its growth to the last pixel of a box in the tile, and the sum of both.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
 (declare-const sx Real) (declare-const sy Real) (declare-const last_x Real) (declare-const last_y Real)
 (assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard sx) (in_guard sy)))
 (assert (and (between 0.0 last_x 63.0) (between 0.0 last_y 63.0)))
 (define-fun a () Real (edge_a py qy))
 (define-fun b () Real (edge_b px qx))
-(define-fun rise () Real (+ (* (maxr a 0.0) last_x) (* (maxr b 0.0) last_y)))
+(define-fun growth () Real (+ (* (maxr a 0.0) last_x) (* (maxr b 0.0) last_y)))
 (define-fun fits ((v Real)) Bool (between (- 4611686018427387904.0) v 4611686018427387904.0))
-(assert (not (and (int32r a) (int32r b) (int32r (- sx px)) (int32r (- sy py)) (int32r rise)
-                  (fits (+ (edge_at px py qx qy sx sy) (* 32768.0 rise))))))
+(assert (not (and (int32r a) (int32r b) (int32r (- sx px)) (int32r (- sy py))
+                  (fits (+ (edge_at px py qx qy sx sy) (* 32768.0 growth))))))
 
 ;; weakened edge_products: Every sum stays below 2^60.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
@@ -88,9 +88,9 @@
 (assert (and (between 0.0 last_x 63.0) (between 0.0 last_y 63.0)))
 (define-fun a () Real (edge_a py qy))
 (define-fun b () Real (edge_b px qx))
-(define-fun rise () Real (+ (* (maxr a 0.0) last_x) (* (maxr b 0.0) last_y)))
+(define-fun growth () Real (+ (* (maxr a 0.0) last_x) (* (maxr b 0.0) last_y)))
 (assert (and (= px (- 536870912.0)) (= py 536870912.0) (= qy (- 536870912.0)) (= sx 536870912.0)))
-(assert (not (between (- (to_real two60)) (+ (edge_at px py qx qy sx sy) (* 32768.0 rise)) (to_real two60))))
+(assert (not (between (- (to_real two60)) (+ (edge_at px py qx qy sx sy) (* 32768.0 growth)) (to_real two60))))
 
 ;; claim area_in_pixels: Twice the area of a triangle, in whole square pixels, fits 32 bits.
 (declare-const area Int)
@@ -101,3 +101,36 @@
 (declare-const area Int)
 (assert (and (<= 0 area) (<= area two60)))
 (assert (not (int32 (div (* 4 area) two30))))
+
+;; claim small_edges_fit: In mask_coverage-inl.h, where vertices are less than 2^4 px apart, a shifted edge value at the
+;;   first sample of the box fits 32 bits, and stays there over 8 px on both axes.
+(declare-const a Real) (declare-const b Real) (declare-const to_x Real) (declare-const to_y Real)
+(declare-const x Real) (declare-const y Real) (declare-const value Real)
+(define-fun small ((v Real)) Bool (< (absr v) 524288.0))
+(assert (and (small a) (small b) (small to_x) (small to_y) (between 0.0 x 8.0) (between 0.0 y 8.0)))
+(assert (between (- (/ (+ (* a to_x) (* b to_y)) 32768.0) 2.0) value (/ (+ (* a to_x) (* b to_y)) 32768.0)))
+(assert (not (and (between (- 33554432.0) value 33554432.0) (int32r (+ value (* a x) (* b y))))))
+
+;; weakened small_edges_fit: The value fits 24 bits.
+(declare-const a Real) (declare-const b Real) (declare-const to_x Real) (declare-const to_y Real)
+(declare-const value Real)
+(define-fun small ((v Real)) Bool (< (absr v) 524288.0))
+(assert (and (small a) (small b) (small to_x) (small to_y) (= a b to_x to_y)))
+(assert (= value (/ (+ (* a to_x) (* b to_y)) 32768.0)))
+(assert (not (between (- 8388608.0) value 8388607.0)))
+
+;; claim no_area_no_sample: No sample belongs to all three edges of a triangle without area. So small triangles need no
+;;   test of their area.
+(declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
+(declare-const rx Real) (declare-const ry Real) (declare-const sx Real) (declare-const sy Real)
+(assert (= (signed_area px py qx qy rx ry) 0.0))
+(assert (owns px py qx qy sx sy))
+(assert (owns qx qy rx ry sx sy))
+(assert (not (not (owns rx ry px py sx sy))))
+
+;; weakened no_area_no_sample: No sample belongs to two of its edges.
+(declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
+(declare-const rx Real) (declare-const ry Real) (declare-const sx Real) (declare-const sy Real)
+(assert (= (signed_area px py qx qy rx ry) 0.0))
+(assert (owns px py qx qy sx sy))
+(assert (owns qx qy rx ry sx sy))

@@ -59,8 +59,9 @@
 ;;   block. least is the edge value where it is least; others is the sum of the other two edge values where this one
 ;;   is largest.
 (declare-const span Int) (declare-const area Int) (declare-const least Int) (declare-const others Int)
-(assert (and (>= least 0) (>= others 0) (= area (+ least (* kPixel_q15 span) others))))
-(assert (not (<= (div span kPixel_q15) (div area two30))))
+(declare-const is_fine Bool)  ; 15 bits; else 8
+(assert (and (>= least 0) (>= others 0) (= area (+ least (ite is_fine (* kPixel_q15 span) (* 256 span)) others))))
+(assert (not (<= (ite is_fine (div span kPixel_q15) (div span 256)) (ite is_fine (div area two30) (div area two16)))))
 
 ;; weakened may_fill_blocks: Nor does an edge whose span equals twice the area.
 (declare-const span Int) (declare-const area Int) (declare-const least Int) (declare-const others Int)

@@ -104,7 +104,6 @@ TEST(Compositions, DrawTheOraclesPicturesOnEveryGrid) {
       lab::draw_oracle(triangles, expected, kBackground);
       const std::string what = std::string(family) + ", " + std::to_string(bits) + " bits, ";
       const auto check = [&](Backend& backend, const Execution& execution, const std::string& name) {
-        if (bits > 8 && !name.starts_with("naive") && !name.starts_with("tiles+edges")) return;
         lab::poison(found);
         backend.draw(triangles, found.view(), {kBackground}, execution);
         expect_same(expected, found, what + name);

@@ -39,47 +39,74 @@ EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t
           static_cast<std::int32_t>(dx)};
 }
 
+// Calls check(triangle, side of the image, description).
+template <class G, typename Check>
+void for_each_edge_next_to_a_sample(Check&& check) {
+  struct Case {
+    int side;  // of the image, px
+    std::vector<std::int32_t> heights;
+    std::vector<std::int64_t> rests;
+    std::int32_t right, down;  // from the edge to the third vertex, sub-units
+  };
+  // Tall edges; then sides just below 16 px, the steepest edges that small triangles can have. An edge's
+  // value is rounded down to whole pixels: 0 … kSub - 1 count as 0.
+  constexpr std::int32_t kSub = G::kSub, kGuard = G::kGuardSub;
+  const Case cases[] = {
+      {70,
+       {2 * kGuard - 160 * kSub + 1, kGuard + 1, kGuard / 2 - 1, 512 * kSub - 1, 32 * kSub - 1},
+       {-1, 0, 1},
+       2 * kGuard,
+       4 * kSub},
+      {8,
+       {16 * kSub - 1, 16 * kSub - 3, 11 * kSub - 5},
+       {-kSub, 1 - kSub, -1, 0, 1, kSub - 1, kSub},
+       7 * kSub,
+       3 * kSub}};
+  for (const auto& [side, heights, rests, right, down] : cases)
+    for (const std::int32_t dy : heights)
+      for (const std::int64_t rest : rests)
+        for (const int row : {0, side / 2, side - 1})
+          for (const bool across : {false, true}) {
+            const auto [x, y, dx] = edge_beside(G::sample(row * 5 % side), G::sample(row), rest, dy);
+            for (const std::int32_t third_x : {std::min(x, x + dx) - right, std::max(x, x + dx) + right}) {
+              ScreenTriangle t = testing::on_grid<G>({{x, x + dx, std::clamp(third_x, -kGuard, kGuard)},
+                                                      {y, y + dy, y + down},
+                                                      {5000, 6000, 7000},
+                                                      1});
+              if (across) std::swap(t.x_q15, t.y_q15);
+              check(
+                  t, side,
+                  std::to_string(G::kSubBits) + " bits, " + std::to_string(dy) + ", " + std::to_string(rest));
+            }
+          }
+}
+
 TEST_P(EveryBackend, ResolvesEdgesNextToASample) {
   testing::for_each_grid([&](auto grid) {
-    using G = decltype(grid);
-    struct Case {
-      int side;  // of the image, px
-      std::vector<std::int32_t> heights;
-      std::vector<std::int64_t> rests;
-      std::int32_t right, down;  // from the edge to the third vertex, sub-units
-    };
-    // Tall edges; then sides just below 16 px, the steepest edges that small triangles can have. An edge's
-    // value is rounded down to whole pixels: 0 … kSub - 1 count as 0.
-    constexpr std::int32_t kSub = G::kSub, kGuard = G::kGuardSub;
-    const Case cases[] = {
-        {70,
-         {2 * kGuard - 160 * kSub + 1, kGuard + 1, kGuard / 2 - 1, 512 * kSub - 1, 32 * kSub - 1},
-         {-1, 0, 1},
-         2 * kGuard,
-         4 * kSub},
-        {8,
-         {16 * kSub - 1, 16 * kSub - 3, 11 * kSub - 5},
-         {-kSub, 1 - kSub, -1, 0, 1, kSub - 1, kSub},
-         7 * kSub,
-         3 * kSub}};
-    for (const auto& [side, heights, rests, right, down] : cases)
-      for (const std::int32_t dy : heights)
-        for (const std::int64_t rest : rests)
-          for (const int row : {0, side / 2, side - 1})
-            for (const bool across : {false, true}) {
-              const auto [x, y, dx] = edge_beside(G::sample(row * 5 % side), G::sample(row), rest, dy);
-              for (const std::int32_t third_x : {std::min(x, x + dx) - right, std::max(x, x + dx) + right}) {
-                ScreenTriangle t = testing::on_grid<G>({{x, x + dx, std::clamp(third_x, -kGuard, kGuard)},
-                                                        {y, y + dy, y + down},
-                                                        {5000, 6000, 7000},
-                                                        1});
-                if (across) std::swap(t.x_q15, t.y_q15);
-                expect_oracle(std::span(&t, 1), side, side,
-                              std::to_string(G::kSubBits) + " bits, " + std::to_string(dy) + ", " +
-                                  std::to_string(rest));
-              }
-            }
+    for_each_edge_next_to_a_sample<decltype(grid)>(
+        [&](const ScreenTriangle& triangle, int side, const std::string& what) {
+          expect_oracle(std::span(&triangle, 1), side, side, what);
+        });
   });
+}
+
+TEST(Compositions, ResolveEdgesNextToASample) {
+  for (const BackendInfo& info : compositions()) {
+    const auto backend = info.make();
+    testing::for_each_grid([&](auto grid) {
+      for_each_edge_next_to_a_sample<decltype(grid)>([&](const ScreenTriangle& triangle, int side,
+                                                         const std::string& what) {
+        Framebuffer expected(side, side), found(side, side);
+        lab::draw_oracle(std::span(&triangle, 1), expected, testing::kBackground);
+        for (const SimdTarget target : supported_targets()) {
+          const Execution execution{1, 64, target};
+          backend->draw(std::span(&triangle, 1), found.view(), {testing::kBackground}, execution);
+          testing::expect_same(expected, found,
+                               std::string(info.name) + ", " + what + ", " + testing::describe(execution));
+        }
+      });
+    });
+  }
 }
 
 // A triangle with its right angle at the upper left and depth z(x, y) at its vertices; all in px. By default
