@@ -22,6 +22,12 @@ struct Grid {
   static constexpr std::int32_t sample(std::int32_t px) { return px * kSub + kHalf; }
 };
 
+// Whether a position lies on the grid.
+template <class G>
+constexpr bool is_on(std::int32_t q15) {
+  return (q15 & ((1 << G::kSpareBits) - 1)) == 0;
+}
+
 using Coarse = Grid<8>;
 using Fine = Grid<contract::kFineBits>;
 

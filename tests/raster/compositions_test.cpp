@@ -9,6 +9,7 @@
 #include "edgewise/draw.h"
 #include "lab/cases/backend_comparison.h"
 #include "lab/cases/hard_triangles.h"
+#include "lab/truth/oracle.h"
 #include "message_of.h"
 #include "raster/kernels.h"
 #include "support.h"
@@ -87,6 +88,29 @@ TEST(Compositions, DrawTheSamePicturesOfHardTrianglesInRenderPasses) {
       });
     }
   }
+}
+
+// Edges are up to 2^15 px long. Of some lists, only the last packets are fine.
+TEST(Compositions, DrawTheOraclesPicturesOnEveryGrid) {
+  constexpr int kWidth = 97, kHeight = 71;
+  const auto naive = find_backend("naive").make();
+  Framebuffer expected(kWidth, kHeight), found(kWidth, kHeight);
+  for (const int bits : {4, 8, 9, 12, 15})
+    for (const auto family : testing::kFamilies) {
+      auto triangles = testing::adversarial(family, 60, kWidth, kHeight, 31, bits);
+      const auto coarse = testing::adversarial("cloud", bits == 12 ? 150 : 0, kWidth, kHeight, 32);
+      triangles.insert(triangles.begin(), coarse.begin(), coarse.end());
+      lab::draw_oracle(triangles, expected, kBackground);
+      const std::string what = std::string(family) + ", " + std::to_string(bits) + " bits, ";
+      const auto check = [&](Backend& backend, const Execution& execution, const std::string& name) {
+        if (bits > 8 && !name.starts_with("naive") && !name.starts_with("tiles+edges")) return;
+        lab::poison(found);
+        backend.draw(triangles, found.view(), {kBackground}, execution);
+        expect_same(expected, found, what + name);
+      };
+      check(*naive, {}, "naive");
+      for_each_composition(false, check);
+    }
 }
 
 #ifdef EDGEWISE_COUNT_FILLS

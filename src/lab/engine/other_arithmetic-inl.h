@@ -138,6 +138,8 @@ struct WideNumbers {
 template <class Numbers, bool kRebased = false>
 struct OtherNumbers : Numbers {
   using typename Numbers::Value;
+  using Grid = Coarse;
+  static constexpr bool kHasLongEdges = false;
 
   static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
     // The area was rounded down.
@@ -146,9 +148,9 @@ struct OtherNumbers : Numbers {
   }
 
   // As in ContractNumbers.
-  static HWY_INLINE std::uint32_t set_up(const TileTask& task, const TriangleLanes64<Coarse>& t,
-                                         const Area& area, const BlockBoxLanes& box,
-                                         EdgeBatch<Value> (&out)[3], int k) {
+  static HWY_INLINE std::uint32_t set_up(const TileTask& task, const TriangleLanes64<Grid>& t,
+                                         const Area& area, const BlockBoxLanes& box, Batch<OtherNumbers>& out,
+                                         int k) {
     const V32 flip = lower(area.flip);
     const V32 x0 = set32(kRebased ? task.x0 * Coarse::kSub : 0),
               y0 = set32(kRebased ? task.y0 * Coarse::kSub : 0);
@@ -158,7 +160,7 @@ struct OtherNumbers : Numbers {
       kept &= set_up_edge({flipped(hn::Sub(t.y[i], t.y[j]), flip), flipped(hn::Sub(t.x[j], t.x[i]), flip),
                            hn::Sub(t.x[i], x0), hn::Sub(t.y[i], y0), hn::Sub(box.sample_x, x0),
                            hn::Sub(box.sample_y, y0), box.last_x, box.last_y},
-                          out[i], k);
+                          out.edge[i], k);
     }
     return kept;
   }

@@ -199,6 +199,7 @@ void Bins::bin_slice(Work& work, int worker, std::size_t index) {
         work.all_fit = false;
     });
   }
+  slice.fine = sorted.fine;
 }
 
 bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
@@ -225,10 +226,11 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
   source.finish();
   in_order_.clear();
   in_order_.reserve(slices_.size());
-  has_masks_ = false;
+  has_masks_ = fine_ = false;
   for (const std::size_t i : ranges_.in_order()) {
     in_order_.push_back(&slices_[i]);
     has_masks_ |= with_masks && slices_[i].masks.any();
+    fine_ |= slices_[i].fine;
   }
   return true;
 }

@@ -37,6 +37,9 @@ class Bins {
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            bool with_masks);
 
+  // Whether a triangle's position is not on the coarse grid. Kernels are chosen by it (core/grid.h).
+  bool fine() const { return fine_; }
+
   // Indices refer to these triangles: the stored ones of the source, or those that were kept of it.
   const ScreenTriangle* triangles() const { return triangles_; }
 
@@ -155,6 +158,7 @@ class Bins {
     MaskLists masks;
     ScreenTriangle* kept = nullptr;  // where triangles that are binned as indices are kept; null: nowhere
     std::size_t next_kept = 0, end_kept = 0;  // the slice's room there
+    bool fine = false;                        // as Bins::fine(), of this slice
 
     void reset(std::size_t cells);
     // Appends a segment to a cell's list. `end_of_last`: the link slot of its last segment, or kNone.
@@ -179,7 +183,7 @@ class Bins {
   Buffer<ScreenTriangle> kept_;
   std::size_t kept_per_input_ = 2;  // room for kept triangles
   const ScreenTriangle* triangles_ = nullptr;
-  bool has_masks_ = false;
+  bool has_masks_ = false, fine_ = false;
 };
 
 }  // namespace edgewise

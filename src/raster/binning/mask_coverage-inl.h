@@ -2,7 +2,8 @@
 // triangle.
 //
 // A triangle is small if its vertices are less than 16 px apart on both axes and the drawn part of its box
-// is at most 8 x 8 px. So steps and distances stay below 2^12 sub-units, and edge values below 2^25.
+// is at most 8 x 8 px. So steps and distances stay below 2^4 px: edge values below 2^25 on the coarse grid,
+// and below 2^39 on the fine one, where the shifted ones of rule 5 fit 32 bits. G is the grid (core/grid.h).
 #include <hwy/highway.h>
 
 #include <bit>
@@ -11,6 +12,7 @@
 #include "raster/binning/mask_lists.h"
 #include "raster/binning/packet_sorter.h"
 #include "raster/simd/rule_lanes-inl.h"
+#include "raster/simd/triangle_lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_MASK_COVERAGE_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -27,7 +29,12 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::int32_t kMaxSmallExtent = 1 << 12;  // sub-units: a small triangle is less wide and high
+template <class G>
+constexpr std::int32_t kMaxSmallExtent = 16 * G::kSub;  // a small triangle is less wide and high
+
+// Whether edge values of small triangles fit 32 bits before they are shifted.
+template <class G>
+constexpr bool kFits32 = std::int64_t{2} * kMaxSmallExtent<G>* kMaxSmallExtent<G> < std::int64_t{1} << 31;
 
 // Small triangles that cover a sample, in submission order. Whole vectors may be stored past the last.
 struct Covering {
@@ -40,12 +47,13 @@ struct Covering {
   // depth_lanes-inl.h
   alignas(64) std::int32_t dx1[kCapacity], dx2[kCapacity], dy1[kCapacity], dy2[kCapacity], dz1[kCapacity],
       dz2[kCapacity];
-  alignas(64) std::int32_t area[kCapacity], from_x[kCapacity], from_y[kCapacity], anchor_z[kCapacity];
+  alignas(64) std::int32_t from_x[kCapacity], from_y[kCapacity], anchor_z[kCapacity];
 };
 
-HWY_INLINE hn::Mask<D> is_small(const GridTriangles<Coarse>& t, const BoxLanes& box) {
+template <class G>
+HWY_INLINE hn::Mask<D> is_small(const GridTriangles<G>& t, const BoxLanes& box) {
   const D d;
-  const V side = hn::Set(d, kMaskSide), longest = hn::Set(d, kMaxSmallExtent);
+  const V side = hn::Set(d, kMaskSide), longest = hn::Set(d, kMaxSmallExtent<G>);
   // Differences of coordinates fit 32 bits (rule 3).
   const auto fits = [&](V begin, V end, const V(&c)[3]) {
     return hn::AndNot(hn::Gt(hn::Sub(end, begin), side), hn::Lt(hn::Sub(max_of(c), min_of(c)), longest));
@@ -101,7 +109,7 @@ class Crossings {
   Crossings() = default;
   // `first`: at the box's first sample. `a`, `b`: steps to the next column and to the next row.
   HWY_INLINE Crossings(V a, V b, V first) {
-    static_assert(kMaxSmallExtent <= 1 << 12);
+    static_assert(kMaxSmallExtent<Coarse> <= 1 << 12);
     const DF df;
     const VF back = hn::ConvertTo(df, hn::Neg(a));
     rises_ = hn::Lt(back, hn::Zero(df));
@@ -125,18 +133,44 @@ class Crossings {
   hn::Mask<DF> rises_;
 };
 
-// The sides of small triangles from vertex 0 on, turned so that the area is positive (rule 4).
+// 64-bit numbers of all lanes: those of the even lanes, and those of the odd ones.
+struct WideLanes {
+  V64 even, odd;
+  HWY_INLINE WideLanes operator+(const WideLanes& b) const {
+    return {hn::Add(even, b.even), hn::Add(odd, b.odd)};
+  }
+  HWY_INLINE WideLanes operator-(const WideLanes& b) const {
+    return {hn::Sub(even, b.even), hn::Sub(odd, b.odd)};
+  }
+  // One less where `mask` is -1.
+  HWY_INLINE WideLanes less_one_where(V mask) const {
+    return {hn::Sub(even, hn::And(as64(mask), hn::Set(D64{}, 1))), hn::Sub(odd, shift_right<63>(as64(mask)))};
+  }
+  // The lower 32 bits of the numbers shifted right.
+  template <int kBits>
+  HWY_INLINE V shifted() const {
+    return hn::OddEven(lower(hn::ShiftLeft<32 - kBits>(odd)), lower(shift_right<kBits>(even)));
+  }
+};
+HWY_INLINE WideLanes wide_product(V a, V b) {
+  return {product(a, b), product(upper(as64(a)), upper(as64(b)))};
+}
+
+// The sides of small triangles from vertex 0 on, turned where the area is negative (rule 4).
 struct SmallSides {
-  V dx1, dx2, dy1, dy2, area;
-  HWY_INLINE explicit SmallSides(const GridTriangles<Coarse>& t) {
+  V dx1, dx2, dy1, dy2;
+  template <class G>
+  HWY_INLINE explicit SmallSides(const GridTriangles<G>& t) {
     const auto minus = [](V a, V b) { return hn::Sub(a, b); };
     const V x1 = minus(t.x[1], t.x[0]), x2 = minus(t.x[2], t.x[0]);
     const V y1 = minus(t.y[1], t.y[0]), y2 = minus(t.y[2], t.y[0]);
-    const V signed_area = minus(hn::Mul(x1, y2), hn::Mul(y1, x2));
-    const V flip = hn::BroadcastSignBit(signed_area);
+    const auto sign = [&] {
+      if constexpr (kFits32<G>) return minus(hn::Mul(x1, y2), hn::Mul(y1, x2));
+      return (wide_product(x1, y2) - wide_product(y1, x2)).template shifted<32>();
+    };
+    const V flip = hn::BroadcastSignBit(sign());
     dx1 = flipped(x1, flip), dx2 = flipped(x2, flip);
     dy1 = flipped(y1, flip), dy2 = flipped(y2, flip);
-    area = flipped(signed_area, flip);
   }
 };
 
@@ -149,46 +183,86 @@ HWY_INLINE V first_rows(V count) {
   return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> half) >> half);
 }
 
+// The values of small triangles' edges at their boxes' first samples, shifted (rule 5), and their steps.
+struct SmallEdges {
+  V a[3], b[3], first[3];
+  template <class G>
+  HWY_INLINE SmallEdges(const GridTriangles<G>& t, const SmallSides& sides, const BoxLanes& box)
+      : a{hn::Neg(sides.dy1), hn::Sub(sides.dy1, sides.dy2), sides.dy2},
+        b{sides.dx1, hn::Sub(sides.dx2, sides.dx1), hn::Neg(sides.dx2)} {
+    const V sx = sample<G>(box.x0), sy = sample<G>(box.y0);
+    for (int i = 0; i < 3; ++i) {
+      const V bias = hn::IfThenZeroElse(is_top_left(a[i], b[i]), hn::Set(D{}, -1));
+      const V from_x = hn::Sub(sx, t.x[i]), from_y = hn::Sub(sy, t.y[i]);
+      if constexpr (kFits32<G>)
+        first[i] =
+            hn::ShiftRight<G::kSubBits>(hn::Add(hn::Add(hn::Mul(a[i], from_x), hn::Mul(b[i], from_y)), bias));
+      else
+        first[i] = (wide_product(a[i], from_x) + wide_product(b[i], from_y))
+                       .less_one_where(bias)
+                       .template shifted<G::kSubBits>();
+    }
+  }
+};
+
 // The samples that small triangles cover: the upper and the lower four rows of their boxes.
-HWY_INLINE void find_covered(const GridTriangles<Coarse>& t, const SmallSides& sides, const BoxLanes& box,
+template <class G>
+HWY_INLINE void find_covered(const GridTriangles<G>& t, const SmallSides& sides, const BoxLanes& box,
                              hn::Mask<D> small, V (&covered)[2]) {
   const D d;
-  const auto& [dx1, dx2, dy1, dy2, area] = sides;
-  const V sx = sample<Coarse>(box.x0), sy = sample<Coarse>(box.y0);
-  const V a[3] = {hn::Neg(dy1), hn::Sub(dy1, dy2), dy2}, b[3] = {dx1, hn::Sub(dx2, dx1), hn::Neg(dx2)};
-  Crossings edge[3];
-  for (int i = 0; i < 3; ++i) {
-    const V bias = hn::IfThenZeroElse(is_top_left(a[i], b[i]), hn::Set(d, -1));
-    const V first = hn::Add(hn::Mul(a[i], hn::Sub(sx, t.x[i])), hn::Mul(b[i], hn::Sub(sy, t.y[i])));
-    edge[i] = Crossings(a[i], b[i], hn::ShiftRight<Coarse::kSubBits>(hn::Add(first, bias)));  // rule 5
-  }
-  const V height = hn::Sub(box.y1, box.y0), upper_rows = hn::Min(height, hn::Set(d, 4));
-  const int rows = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, height)));
-  const RowSpan whole(hn::Sub(box.x1, box.x0));
+  SmallEdges edges(t, sides, box);
+  const V width = hn::Sub(box.x1, box.x0), height = hn::Sub(box.y1, box.y0);
+  const auto most = [&](V size) { return hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, size))); };
+  const int rows = most(height);
   covered[0] = covered[1] = hn::Zero(d);
-  for (int y = 0; y < rows; ++y) {
-    RowSpan span = whole;
-    for (Crossings& e : edge) e.cut_row(span);
-    V& half = covered[y / 4];
-    half = hn::Or(half, hn::ShiftLeftSame(span.bits(), y % 4 * 8));
+  if constexpr (kFits32<G>) {
+    Crossings crossings[3];
+    for (int i = 0; i < 3; ++i) crossings[i] = Crossings(edges.a[i], edges.b[i], edges.first[i]);
+    const RowSpan whole(width);
+    for (int y = 0; y < rows; ++y) {
+      RowSpan span = whole;
+      for (Crossings& e : crossings) e.cut_row(span);
+      V& half = covered[y / 4];
+      half = hn::Or(half, hn::ShiftLeftSame(span.bits(), y % 4 * 8));
+    }
+  } else {
+    // Floats would not decide as integers do: tests each sample.
+    const int columns = most(width);
+    for (int y = 0; y < rows; ++y) {
+      V value[3] = {edges.first[0], edges.first[1], edges.first[2]};
+      V bit = hn::Set(d, 1 << y % 4 * 8), row = hn::Zero(d);
+      for (int x = 0; x < columns; ++x) {
+        const V outside = hn::BroadcastSignBit(hn::Or(hn::Or(value[0], value[1]), value[2]));
+        row = hn::Or(row, hn::AndNot(outside, bit));
+        for (int i = 0; i < 3; ++i) value[i] = hn::Add(value[i], edges.a[i]);
+        bit = hn::Add(bit, bit);
+      }
+      covered[y / 4] = hn::Or(covered[y / 4], row);
+      for (int i = 0; i < 3; ++i) edges.first[i] = hn::Add(edges.first[i], edges.b[i]);
+    }
+    const V in_row = hn::Sub(hn::Set(d, 1) << hn::Min(width, hn::Set(d, 8)), hn::Set(d, 1));
+    const V in_rows = hn::Mul(in_row, hn::Set(d, 0x01010101));
+    covered[0] = hn::And(covered[0], in_rows), covered[1] = hn::And(covered[1], in_rows);
   }
+  const V upper_rows = hn::Min(height, hn::Set(d, 4));
   covered[0] = hn::And(covered[0], first_rows(upper_rows));
   covered[1] = hn::And(covered[1], first_rows(hn::Sub(height, upper_rows)));
 }
 
 // Appends the triangles of a vector that are small and cover a sample. Bit i of the result is set if triangle
 // i does. `index`: of the first, in the packet.
-HWY_INLINE std::uint32_t append_covering(const GridTriangles<Coarse>& t, const BoxLanes& box,
-                                         hn::Mask<D> small, int index, Covering& out) {
-  const V zero = hn::Zero(D{});
+template <class G>
+HWY_INLINE std::uint32_t append_covering(const GridTriangles<G>& t, const BoxLanes& box, hn::Mask<D> small,
+                                         int index, Covering& out) {
   const SmallSides sides(t);
   V covered[2];
   find_covered(t, sides, box, small, covered);
-  const auto covers =
-      hn::And(hn::And(small, hn::Gt(sides.area, zero)), hn::Ne(hn::Or(covered[0], covered[1]), zero));
+  // A triangle without area covers no sample: its three values add up to 0, and not all edges are top or
+  // left.
+  const auto covers = hn::And(small, hn::Ne(hn::Or(covered[0], covered[1]), hn::Zero(D{})));
   const AnchorLanes anchor(t.x, t.y, t.z);
   const auto from_anchor = [](V px, V anchor_sub) {
-    return hn::Sub(sample<Coarse>(hn::And(px, hn::Set(D{}, -kDepthCell))), anchor_sub);
+    return hn::Sub(sample<G>(hn::And(px, hn::Set(D{}, -kDepthCell))), anchor_sub);
   };
   const Selection select(covers);
   const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), D{}, list + out.count); };
@@ -198,7 +272,6 @@ HWY_INLINE std::uint32_t append_covering(const GridTriangles<Coarse>& t, const B
   keep(t.payload, out.payload);
   keep(sides.dx1, out.dx1), keep(sides.dx2, out.dx2), keep(sides.dy1, out.dy1), keep(sides.dy2, out.dy2);
   keep(hn::Sub(t.z[1], t.z[0]), out.dz1), keep(hn::Sub(t.z[2], t.z[0]), out.dz2);
-  keep(sides.area, out.area);
   keep(from_anchor(box.x0, anchor.x), out.from_x), keep(from_anchor(box.y0, anchor.y), out.from_y);
   keep(anchor.z, out.anchor_z);
   const std::uint32_t covering = mask_bits(covers);

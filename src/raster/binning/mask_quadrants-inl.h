@@ -26,34 +26,37 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The depth planes of small triangles, at the first pixel of the depth cell in which their boxes begin.
+template <class G>
 struct Planes {
   alignas(64) std::int32_t zx[Covering::kCapacity], zy[Covering::kCapacity];
   alignas(64) std::int64_t gx[Covering::kCapacity], gy[Covering::kCapacity];
-  alignas(64) std::int64_t start[Covering::kCapacity];  // 2^24 (depth at the first pixel of the cell + 1/2)
+  alignas(64)
+      std::int64_t start[Covering::kCapacity];  // 2^kPlaneBits (depth at the first pixel of the cell + 1/2)
 
   // The base of the depth cell to the right, below, or both, less that of the triangle's first cell.
   std::uint32_t base_step(int k, std::uint32_t right, std::uint32_t below) const {
     const auto bits = [&](const std::int64_t(&list)[Covering::kCapacity]) {
       return static_cast<std::uint64_t>(list[k]);
     };
-    constexpr std::uint64_t kCell = std::uint64_t{kDepthCell} << Coarse::kSubBits;
+    constexpr std::uint64_t kCell = std::uint64_t{kDepthCell} << G::kSubBits;
     const std::uint64_t here = bits(start),
                         there = here + bits(gx) * (right * kCell) + bits(gy) * (below * kCell);
-    return static_cast<std::uint32_t>(there >> Coarse::kPlaneBits) -
-           static_cast<std::uint32_t>(here >> Coarse::kPlaneBits);
+    return static_cast<std::uint32_t>(there >> G::kPlaneBits) -
+           static_cast<std::uint32_t>(here >> G::kPlaneBits);
   }
 };
 
-inline void find_planes(const ScreenTriangle* triangles, const Covering& from, Planes& out) {
+template <class G>
+void find_planes(const ScreenTriangle* triangles, const Covering& from, Planes<G>& out) {
   const D64 d;
   for (int k = 0; k < from.count; k += kLanes64) {
     const auto read = [&](const std::int32_t* list) {
-      return hn::PromoteTo(D64{}, hn::LoadU(hn::Rebind<std::int32_t, D64>{}, list + k));
+      return lower(hn::PromoteTo(D64{}, hn::LoadU(hn::Rebind<std::int32_t, D64>{}, list + k)));
     };
-    const DepthLanes<Coarse> depth = depth_lanes<Coarse>(
-        {lower(read(from.dx1)), lower(read(from.dx2)), lower(read(from.dy1)), lower(read(from.dy2)),
-         lower(read(from.dz1)), lower(read(from.dz2)), read(from.area), lower(read(from.from_x)),
-         lower(read(from.from_y)), lower(read(from.anchor_z))});
+    const V32 dx1 = read(from.dx1), dx2 = read(from.dx2), dy1 = read(from.dy1), dy2 = read(from.dy2);
+    const DepthLanes<G> depth =
+        depth_lanes<G>({dx1, dx2, dy1, dy2, read(from.dz1), read(from.dz2), area_of(dx1, dx2, dy1, dy2).value,
+                        read(from.from_x), read(from.from_y), read(from.anchor_z)});
     store(depth.x, out.zx + k), store(depth.y, out.zy + k);
     hn::StoreU(depth.gx, d, out.gx + k), hn::StoreU(depth.gy, d, out.gy + k);
     hn::StoreU(depth.start, d, out.start + k);
@@ -62,12 +65,11 @@ inline void find_planes(const ScreenTriangle* triangles, const Covering& from, P
       const int at = k + std::countr_zero(left);
       const DepthPlane plane = make_depth(orient(triangles[from.index[at]]));
       const auto pixels = [](std::int32_t px) {
-        return static_cast<std::uint64_t>(px & -kDepthCell) << Coarse::kSubBits;
+        return static_cast<std::uint64_t>(px & -kDepthCell) << G::kSubBits;
       };
       out.gx[at] = static_cast<std::int64_t>(plane.gx), out.gy[at] = static_cast<std::int64_t>(plane.gy);
-      out.start[at] =
-          static_cast<std::int64_t>((plane.origin >> Coarse::kSpareBits) + plane.gx * pixels(from.x0[at]) +
-                                    plane.gy * pixels(from.y0[at]));
+      out.start[at] = static_cast<std::int64_t>(
+          (plane.origin >> G::kSpareBits) + plane.gx * pixels(from.x0[at]) + plane.gy * pixels(from.y0[at]));
       out.zx[at] = static_cast<std::int32_t>(plane.zx), out.zy[at] = static_cast<std::int32_t>(plane.zy);
     }
   }
@@ -133,8 +135,9 @@ HWY_INLINE void place(const CellGrid& grid, V bx, V by, V& cell, V& in_cell) {
   in_cell = hn::Add(hn::ShiftLeft<4>(in_y), in_x);
 }
 
-inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const Planes& planes,
-                               SortedPacket& out) {
+template <class G>
+void cut_into_quadrants(const CellGrid& grid, const Covering& from, const Planes<G>& planes,
+                        SortedPacket& out) {
   const D d;
   for (int k = 0; k < from.count; k += kLanes) {
     const auto read = [&](const std::int32_t* list) { return hn::LoadU(d, list + k); };
@@ -144,8 +147,8 @@ inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const
     cut_rows(x0, y0, across, down,
              {unsigned_bits(read(from.covered[0])), unsigned_bits(read(from.covered[1]))}, rows);
     const V payload = read(from.payload), zx = read(planes.zx), zy = read(planes.zy);
-    const auto base_at = [&](int at) {  // start has 24 fraction bits
-      return lower(shift_right<Coarse::kPlaneBits>(hn::LoadU(D64{}, planes.start + at)));
+    const auto base_at = [&](int at) {  // start has kPlaneBits fraction bits
+      return lower(shift_right<G::kPlaneBits>(hn::LoadU(D64{}, planes.start + at)));
     };
     const V base = hn::ConcatEven(d, base_at(k + kLanes64), base_at(k));
     V present = hn::Zero(d);

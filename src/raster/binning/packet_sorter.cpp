@@ -31,6 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool, SortedPacket& out) {
   out.boxed = out.masked = 0;
   for (int i = 0; i < kPacket; ++i) {
+    for (int k = 0; k < 3; ++k) out.fine |= !is_on<Coarse>(triangles[i].x_q15[k] | triangles[i].y_q15[k]);
     contract::PixelBox box = contract::pixel_box(triangles[i], grid.width, grid.height);
     box.x0 = std::max(box.x0, grid.x0), box.y0 = std::max(box.y0, grid.y0);
     if (box.empty()) continue;
@@ -54,11 +55,15 @@ HWY_INLINE void store_cell_boxes(const BoxLanes& box, const CellGrid& grid, Cell
                         reinterpret_cast<std::int32_t*>(out));
 }
 
-void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool with_masks, SortedPacket& out) {
+// Returns false, with unspecified contents, if a position is not on the grid.
+template <class G>
+bool sort_on_grid(const ScreenTriangle* triangles, const CellGrid& grid, bool with_masks, SortedPacket& out) {
   Covering covering;
   out.boxed = out.masked = 0;
   for (int i = 0; i < kPacket; i += kLanes) {
-    const GridTriangles<Coarse> t(load_triangles([&](int lane) { return triangles + i + lane; }));
+    const TriangleLanes stored = load_triangles([&](int lane) { return triangles + i + lane; });
+    if (!are_on<G>(stored)) return false;
+    const GridTriangles<G> t(stored);
     const BoxLanes box(t, grid.drawn());
     std::uint32_t boxed = mask_bits(box.filled);
     if (with_masks) {
@@ -70,10 +75,16 @@ void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool wit
     if (boxed != 0) store_cell_boxes(box, grid, out.box + i);
     out.boxed |= std::uint64_t{boxed} << i;
   }
-  if (covering.count == 0) return;
-  Planes planes;
+  if (covering.count == 0) return true;
+  Planes<G> planes;
   find_planes(triangles, covering, planes);
   cut_into_quadrants(grid, covering, planes, out);
+  return true;
+}
+
+void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool with_masks, SortedPacket& out) {
+  out.fine = out.fine || !sort_on_grid<Coarse>(triangles, grid, with_masks, out);
+  if (out.fine) sort_on_grid<Fine>(triangles, grid, with_masks, out);
 }
 
 #endif

@@ -13,6 +13,8 @@ inline constexpr int kPacket = 64;
 
 // A packet of kPacket triangles, sorted. Bit i of `boxed` and `masked` belongs to triangle i.
 struct SortedPacket {
+  // Whether this packet, or one before it, has a position that is not on the coarse grid (core/grid.h).
+  bool fine = false;
   std::uint64_t boxed;   // triangles with a cell box: its drawn part holds a sample
   std::uint64_t masked;  // small triangles that cover a sample
   CellBox box[kPacket];  // unspecified for other triangles

@@ -28,7 +28,10 @@ using namespace contract;
 // area, so its range over the block must not exceed that (claim may_fill_blocks in proofs/tile_reject.smt2).
 template <class Numbers>
 HWY_INLINE bool may_fill_blocks(const Batch<Numbers>& batch, int k) {
-  return std::none_of(batch.edge, batch.edge + 3, [&](const auto& edge) {
+  const auto* edges = batch.coarse_edges(k);
+  return std::none_of(edges, edges + 3, [&](const auto& edge) {
+    if constexpr (Numbers::kHasLongEdges)
+      if (batch.is_long(k)) return ContractNumbers<Coarse>::exceeds(edge.range[k], batch.twice_area_px2[k]);
     return Numbers::exceeds(edge.range[k], batch.twice_area_px2[k]);
   });
 }
@@ -64,8 +67,9 @@ void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, Candidates&
     return Row<Numbers, kWidth>(edge, k,
                                 Numbers::add(Numbers::set(edge.first[k]), Numbers::set(edge.rise[k])));
   };
-  Row<Numbers, kWidth> edge[3] = {largest_in_block(batch.edge[0]), largest_in_block(batch.edge[1]),
-                                  largest_in_block(batch.edge[2])};
+  const auto* edges = batch.coarse_edges(k);
+  Row<Numbers, kWidth> edge[3] = {largest_in_block(edges[0]), largest_in_block(edges[1]),
+                                  largest_in_block(edges[2])};
   Row<Int32Numbers, kWidth> farthest(
       batch.depth, k, hn::Add(hn::Set(d, batch.depth.first[k]), hn::Set(d, batch.depth_rise[k])));
   Row<Int32Numbers, kWidth> nearest(batch.nearest, k, hn::Set(d, batch.nearest.first[k]));
@@ -81,7 +85,7 @@ void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, Candidates&
       auto candidate = in_box(Numbers::any_negative(edge[0].v[p], edge[1].v[p], edge[2].v[p]));
       if constexpr (kHiZ) {
         const auto smallest_in_block = [&](int i) {
-          return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].range[k]));
+          return Numbers::subtract(edge[i].v[p], Numbers::set(edges[i].range[k]));
         };
         const auto covered =
             in_box(Numbers::any_negative(smallest_in_block(0), smallest_in_block(1), smallest_in_block(2)));
@@ -98,45 +102,92 @@ void find_candidates(Tile& tile, const Batch<Numbers>& batch, int k, Candidates&
   out.length = list.length, out.k = k;
 }
 
-// Draws a list of candidate blocks.
+// The values of triangle k's linear function at the pixels of kLanes blocks of a list at a time.
 template <class Numbers>
-void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& candidates) {
+class ValuesInBlocks {
+ public:
+  HWY_INLINE ValuesInBlocks(const Linear<typename Numbers::Value>& f, int k)
+      : f_(f), k_(k), in_block_(f, k) {}
+  // Goes on to the blocks that begin at pixels (x, y). Through memory: from AVX2 on, a load broadcasts a
+  // value to all lanes without the execution units for arithmetic and shuffles, which are the bottleneck.
+  HWY_INLINE void set_blocks(V x, V y) {
+    const auto steps = Numbers::add(Numbers::times(x, f_.x[k_]), Numbers::times(y, f_.y[k_]));
+    Numbers::store_values(Numbers::add(Numbers::set(f_.first[k_]), steps), first_);
+  }
+  struct Block {
+    typename Numbers::Vector first;
+    const Values16<Numbers>& in_block;
+    HWY_INLINE auto at(int p) const { return Numbers::add(first, in_block.v[p]); }
+  };
+  HWY_INLINE Block block(int n) const { return {Numbers::set(first_[n]), in_block_}; }
+
+ private:
+  const Linear<typename Numbers::Value>& f_;
+  const int k_;
+  const Values16<Numbers> in_block_;
+  alignas(64) typename Numbers::Value first_[kLanes];
+};
+
+// The same for edge i, where it is long.
+class LongValuesInBlocks {
+ public:
+  HWY_INLINE LongValuesInBlocks(const LongEdges& edges, int i, int k)
+      : upper_(edges.upper[i], k), lower_(edges.lower[i], k) {}
+  HWY_INLINE void set_blocks(V x, V y) { upper_.set_blocks(x, y), lower_.set_blocks(x, y); }
+  struct Block {
+    ValuesInBlocks<Int32Numbers>::Block upper, lower;
+    // Rounded down, so it has the value's sign.
+    HWY_INLINE V at(int p) const {
+      return hn::Add(upper.at(p), hn::ShiftRight<LongEdges::kLowerBits>(lower.at(p)));
+    }
+  };
+  HWY_INLINE Block block(int n) const { return {upper_.block(n), lower_.block(n)}; }
+
+ private:
+  ValuesInBlocks<Int32Numbers> upper_, lower_;
+};
+
+// Draws a list of candidate blocks. `edge`: ValuesInBlocks of each edge.
+template <class Numbers, class EdgeValues>
+HWY_INLINE void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& candidates,
+                                EdgeValues (&&edge)[3]) {
   const int length = candidates.length, k = candidates.k;
-  if (length == 0) return;
   const D d;
-  const Values16<Numbers> edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
-  const Values16<Int32Numbers> depth_in(batch.depth, k);
+  ValuesInBlocks<Int32Numbers> depth(batch.depth, k);
   const V payload = hn::Set(d, batch.payload[k]);
   const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   for (int begin = 0; begin < length; begin += kLanes) {
-    // Values at the blocks' first pixels, through memory: from AVX2 on, a load broadcasts one to all lanes
-    // without the execution units for arithmetic and shuffles, which are the bottleneck.
     const V offset = hn::Load(d, candidates.offset + begin);
     static_assert(kMaxBlocks == 1 << 4);
     const V x = hn::ShiftLeft<2>(hn::And(offset, hn::Set(d, kMaxBlocks - 1)));
     const V y = hn::ShiftLeft<2>(hn::ShiftRight<4>(offset));
-    alignas(64) typename Numbers::Value edge_at[3][kLanes];
-    alignas(64) std::int32_t depth_at[kLanes];
-    const auto store_first = [&](auto numbers, const auto& f, auto* at) {
-      const auto steps = numbers.add(numbers.times(x, f.x[k]), numbers.times(y, f.y[k]));
-      numbers.store_values(numbers.add(numbers.set(f.first[k]), steps), at);
-    };
-    for (int i = 0; i < 3; ++i) store_first(Numbers{}, batch.edge[i], edge_at[i]);
-    store_first(Int32Numbers{}, batch.depth, depth_at);
+    for (EdgeValues& values : edge) values.set_blocks(x, y);
+    depth.set_blocks(x, y);
     const int count = std::min(kLanes, length - begin);
     for (int n = 0; n < count; ++n) {
       const int block = first_block + candidates.offset[begin + n];
-      const typename Numbers::Vector edge[3] = {Numbers::set(edge_at[0][n]), Numbers::set(edge_at[1][n]),
-                                                Numbers::set(edge_at[2][n])};
-      const V depth = hn::Set(d, depth_at[n]);
-      for (int p = 0; p < kVectors; ++p) {
-        const auto value = [&](int i) { return Numbers::add(edge[i], edge_in[i].v[p]); };
+      const auto edge0 = edge[0].block(n), edge1 = edge[1].block(n), edge2 = edge[2].block(n);
+      const auto z = depth.block(n);
+      for (int p = 0; p < kVectors; ++p)
         depth_test(tile, block * kBlockPixels + p * kLanes,
-                   not_negative(Numbers::any_negative(value(0), value(1), value(2))),
-                   hn::Add(depth, depth_in.v[p]), payload);
-      }
+                   not_negative(Numbers::any_negative(edge0.at(p), edge1.at(p), edge2.at(p))), z.at(p),
+                   payload);
     }
   }
+}
+
+template <class Numbers>
+void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& candidates) {
+  const int k = candidates.k;
+  if (candidates.length == 0) return;
+  if constexpr (Numbers::kHasLongEdges)
+    if (batch.is_long(k)) [[unlikely]] {
+      const LongEdges& edges = batch.long_edges;
+      return draw_candidates<Numbers, LongValuesInBlocks>(tile, batch, candidates,
+                                                          {{edges, 0, k}, {edges, 1, k}, {edges, 2, k}});
+    }
+  draw_candidates<Numbers, ValuesInBlocks<Numbers>>(
+      tile, batch, candidates, {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}});
 }
 
 }  // namespace HWY_NAMESPACE

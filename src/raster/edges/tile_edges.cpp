@@ -7,7 +7,8 @@
 // 2. The buffer is stored in blocks of 4 x 4 pixels, 16 consecutive integers: one AVX-512 vector, two of
 //    AVX2, four of SSE4 or NEON. 4 x 4 wastes fewer lanes on small triangles than 16 x 1.
 // 3. Triangles are set up for the tile, a vector at a time (tile_setup-inl.h). An edge that accepts the
-//    triangle's whole box becomes the constant 0; the others are stepped in int32 lanes (rule 5).
+//    triangle's whole box becomes the constant 0; the others are stepped in int32 lanes (rule 5). Where
+//    these do not suffice, on the fine grid, values are pairs of them (LongEdges).
 // 4. Coarse rejection tests a row of blocks (tile_candidates-inl.h) or, for small boxes, a square of blocks
 //    (tile_blocks-inl.h) at a time, one lane per block. Blocks outside an edge are rejected; in rows of
 //    blocks, so are occluded ones (HiZ, hiz-inl.h). Triangles that are occluded in the whole tile skip the
@@ -29,7 +30,7 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 void draw_edges_in_tile(const TileTask& task) {
-  draw_tile_in<ContractNumbers>(task);
+  task.bins->fine() ? draw_tile_in<ContractNumbers<Fine>>(task) : draw_tile_in<ContractNumbers<Coarse>>(task);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -91,7 +91,7 @@ class TilePainter {
       const int k = std::countr_zero(left);
       masks_.draw_before(segment, static_cast<std::size_t>(k), draw_masks_);
       const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
-      if (std::max(width, height) <= SmallTriangles<Numbers>::kSide) {
+      if (std::max(width, height) <= SmallTriangles<Numbers>::kSide && !batch_.is_long(k)) {
         draw_waiting();
         count(Part::tile_edges);
         small_.add(batch_, k);

@@ -1,12 +1,13 @@
 // Sets triangles up for one tile, a vector of triangles at a time.
 //
-// The kernel is a template on the numbers in which it computes edge functions. Here are the contract's;
-// lab/engine has others, to measure what exactness costs.
+// The kernel is a template on the numbers in which it computes edge functions. Here are the contract's, on
+// one of its grids (core/grid.h); lab/engine has others, to measure what exactness costs.
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/lanes-inl.h"
 #include "edgewise/contract.h"
@@ -72,46 +73,25 @@ HWY_INLINE V32 thrice(V32 v) {
   return hn::Add(v, hn::Add(v, v));
 }
 
-// The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
-// >= 0. Other numbers have the same members.
-struct ContractNumbers : Int32Numbers {
-  // Whether a value's range over a block, in square pixels, exceeds twice the triangle's area.
-  static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
-    return range >> Coarse::kSubBits > twice_area_px2;
-  }
-
-  // Sets up the edges of a vector of triangles as entries k … An edge that accepts the box becomes the
-  // constant 0. Returns the bits of the triangles whose box no edge rejects.
-  static HWY_INLINE std::uint32_t set_up(const TileTask&, const TriangleLanes64<Coarse>& t, const Area& area,
-                                         const BlockBoxLanes& box, EdgeBatch<Value> (&out)[3], int k) {
-    const V32 zero = hn::Zero(D32{});
-    V64 rejected = hn::Zero(D64{});
-    for (int i = 0; i < 3; ++i) {
-      const EdgeLanes edge(t, area, i, box.sample_x, box.sample_y);
-      // From the first sample to others in the box, the value grows by at most `growth`.
-      const V64 growth =
-          hn::Add(product(hn::Max(edge.a, zero), box.last_x), product(hn::Max(edge.b, zero), box.last_y));
-      const V64 across = hn::Add(product(edge.a, box.last_x), product(edge.b, box.last_y));
-      const V64 largest_in_box = hn::Add(edge.value, hn::ShiftLeft<Coarse::kSubBits>(growth));
-      const V64 smallest_in_box =
-          hn::Add(edge.value, hn::ShiftLeft<Coarse::kSubBits>(hn::Sub(across, growth)));
-      rejected = hn::Or(rejected, largest_in_box);
-      const auto accepted = hn::Not(hn::Lt(smallest_in_box, hn::Zero(D64{})));
-      const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenZeroElse(accepted, v)); };
-      const V32 x = unless_accepted(as64(edge.a)), y = unless_accepted(as64(edge.b));
-      store(x, out[i].x + k), store(y, out[i].y + k);
-      store(unless_accepted(shift_right<Coarse::kSubBits>(edge.value)), out[i].first + k);
-      store(thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero))), out[i].rise + k);
-      store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), out[i].range + k);
-    }
-    return ~mask_bits(hn::Lt(rejected, hn::Zero(D64{})));
-  }
+// Long edges, whose values in a box may exceed 32 bits, as exact pairs: 2^7 upper + lower. Values on the
+// coarse grid fit (rule 5), and so do the upper parts. Both parts are linear functions whose start and steps
+// are split, lower ones from 0 to 127. So a lower part is at most 127 (1 + 63 + 63) within the tile, and the
+// carry from it at most kMostCarry.
+struct LongEdges {
+  static constexpr int kLowerBits = Coarse::kSpareBits;
+  static constexpr std::int32_t kMostCarry = 2 * kMaxTile - 2;
+  std::uint32_t triangles;           // bit k: triangle k has a long edge. Then all its edges are pairs
+  EdgeBatch<std::int32_t> upper[3];  // rise and range include the carry
+  Linear<std::int32_t> lower[3];
 };
+struct NoLongEdges {};
 
 // A batch of triangles, set up for one tile.
 template <class Numbers>
 struct Batch {
-  EdgeBatch<typename Numbers::Value> edge[3];
+  using Value = typename Numbers::Value;
+  EdgeBatch<Value> edge[3];
+  std::conditional_t<Numbers::kHasLongEdges, LongEdges, NoLongEdges> long_edges;
   Linear<std::int32_t> depth;       // rule 6, in wrapping int32
   std::int32_t depth_rise[kBatch];  // as in EdgeBatch
   // For HiZ: no pixel that the triangle covers in a block is nearer than this function of the block's first
@@ -121,17 +101,108 @@ struct Batch {
   std::int32_t payload[kBatch];
   std::int32_t twice_area_px2[kBatch];
   std::int32_t bx0[kBatch], by0[kBatch], bx1[kBatch], by1[kBatch];  // the box in blocks, inclusive
+
+  HWY_INLINE bool is_long(int k) const {
+    if constexpr (Numbers::kHasLongEdges) return (long_edges.triangles >> k & 1) != 0;
+    return false;
+  }
+  // What rejects blocks of triangle k, or accepts them for HiZ.
+  HWY_INLINE const EdgeBatch<Value>* coarse_edges(int k) const {
+    if constexpr (Numbers::kHasLongEdges)
+      if (is_long(k)) return long_edges.upper;
+    return edge;
+  }
+};
+
+// The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
+// >= 0. Other numbers have the same members.
+template <class G>
+struct ContractNumbers : Int32Numbers {
+  using Grid = G;
+  static constexpr bool kHasLongEdges = std::int64_t{kMaxTile} * 4 * G::kGuardSub >= std::int64_t{1} << 31;
+
+  // Whether a value's range over a block, in square pixels, exceeds twice the triangle's area.
+  static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
+    return range >> G::kSubBits > twice_area_px2;
+  }
+
+  // Sets up the edges of a vector of triangles as entries k … An edge that accepts the box becomes the
+  // constant 0. Returns the bits of the triangles whose box no edge rejects.
+  static HWY_INLINE std::uint32_t set_up(const TileTask&, const TriangleLanes64<G>& t, const Area& area,
+                                         const BlockBoxLanes& box, Batch<ContractNumbers>& out, int k) {
+    V64 rejected = hn::Zero(D64{});
+    auto is_long = hn::FirstN(D64{}, 0);
+    for (int i = 0; i < 3; ++i) {
+      const EdgeInBox edge(t, area, i, box);
+      rejected = hn::Or(rejected, edge.largest);
+      store_edge(edge.unless_accepted(as64(edge.a)), edge.unless_accepted(as64(edge.b)),
+                 edge.unless_accepted(shift_right<G::kSubBits>(edge.value)), 0, out.edge[i], k);
+      if constexpr (kHasLongEdges) is_long = hn::Or(is_long, edge.is_long);
+    }
+    if constexpr (kHasLongEdges) {
+      const std::uint32_t bits = mask_bits(is_long);
+      out.long_edges.triangles = (k == 0 ? 0 : out.long_edges.triangles) | bits << k;
+      if (bits != 0) [[unlikely]]
+        set_up_long(t, area, box, out.long_edges, k);
+    }
+    return ~mask_bits(hn::Lt(rejected, hn::Zero(D64{})));
+  }
+
+ private:
+  struct EdgeInBox : EdgeLanes {
+    V64 largest;             // the largest value in the box
+    hn::Mask<D64> accepted;  // where no value in the box is negative
+    hn::Mask<D64> is_long;   // where values in the box, shifted, may not fit 32 bits
+    HWY_INLINE EdgeInBox(const TriangleLanes64<G>& t, const Area& area, int i, const BlockBoxLanes& box)
+        : EdgeLanes(t, area, i, box.sample_x, box.sample_y) {
+      const V32 zero = hn::Zero(D32{});
+      // From the first sample to others in the box, the value grows by at most `growth`.
+      const V64 growth =
+          hn::Add(product(hn::Max(a, zero), box.last_x), product(hn::Max(b, zero), box.last_y));
+      const V64 across = hn::Add(product(a, box.last_x), product(b, box.last_y));
+      const V64 fall = hn::Sub(across, growth);
+      largest = hn::Add(value, hn::ShiftLeft<G::kSubBits>(growth));
+      accepted = hn::Not(hn::Lt(hn::Add(value, hn::ShiftLeft<G::kSubBits>(fall)), hn::Zero(D64{})));
+      // Where the edge neither accepts nor rejects the box, values are at most their range away from 0.
+      is_long = hn::AndNot(accepted, hn::Gt(hn::Sub(growth, fall), hn::Set(D64{}, 0x7FFFFFFF)));
+    }
+    HWY_INLINE V32 unless_accepted(V64 v) const { return lower(hn::IfThenZeroElse(accepted, v)); }
+  };
+
+  static HWY_INLINE void store_edge(V32 x, V32 y, V32 first, std::int32_t carry, EdgeBatch<Value>& out,
+                                    int k) {
+    const V32 zero = hn::Zero(D32{});
+    store(x, out.x + k), store(y, out.y + k), store(first, out.first + k);
+    const V32 rise = thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero)));
+    const V32 range = thrice(hn::Add(hn::Abs(x), hn::Abs(y)));
+    store(hn::Add(rise, set32(carry)), out.rise + k), store(hn::Add(range, set32(carry)), out.range + k);
+  }
+
+  static HWY_NOINLINE void set_up_long(const TriangleLanes64<G>& t, const Area& area,
+                                       const BlockBoxLanes& box, LongEdges& out, int k) {
+    constexpr int kBits = LongEdges::kLowerBits;
+    const V32 lower_bits = set32((1 << kBits) - 1);
+    for (int i = 0; i < 3; ++i) {
+      const EdgeInBox edge(t, area, i, box);
+      const V32 x = edge.unless_accepted(as64(edge.a)), y = edge.unless_accepted(as64(edge.b));
+      const V64 value = hn::IfThenZeroElse(edge.accepted, edge.value);
+      store_edge(hn::ShiftRight<kBits>(x), hn::ShiftRight<kBits>(y),
+                 lower(shift_right<G::kSubBits + kBits>(value)), LongEdges::kMostCarry, out.upper[i], k);
+      store(hn::And(x, lower_bits), out.lower[i].x + k), store(hn::And(y, lower_bits), out.lower[i].y + k);
+      store(hn::And(lower(shift_right<G::kSubBits>(value)), lower_bits), out.lower[i].first + k);
+    }
+  }
 };
 
 // Sets up the depths of a vector of triangles as entries k … of the batch. Returns the bits of those whose
 // planes are exact.
-template <class Numbers>
-HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes64<Coarse>& t,
-                                      const Area& area, V32 left, V32 top, const BlockBoxLanes& box,
-                                      Batch<Numbers>& out, int k) {
+template <class Numbers, class G>
+HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes64<G>& t, const Area& area,
+                                      V32 left, V32 top, const BlockBoxLanes& box, Batch<Numbers>& out,
+                                      int k) {
   const V32 zero = hn::Zero(D32{});
   const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
-  const DepthLanes<Coarse> depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
+  const DepthLanes<G> depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
   const V32 first = depth.at(hn::Add(left, set32(in_cell_x)), hn::Add(top, set32(in_cell_y)));
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k), store(first, out.depth.first + k);
   store(thrice(hn::Add(hn::Max(depth.x, zero), hn::Max(depth.y, zero))), out.depth_rise + k);
@@ -154,7 +225,8 @@ HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes6
 template <class Numbers>
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices,
                                        Batch<Numbers>& out, int k) {
-  const auto t = load<Coarse>(task.bins->triangles(), indices);
+  using G = typename Numbers::Grid;
+  const auto t = load<G>(task.bins->triangles(), indices);
   const Area area = area_of(t);
   const BoxLanes box(t, task.box());
   const auto block = [](V32 px, int first_px) { return hn::ShiftRight<2>(hn::Sub(px, set32(first_px))); };
@@ -164,13 +236,13 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   const auto last = [](V32 b0, V32 b1) {
     return hn::Add(hn::ShiftLeft<2>(hn::Sub(b1, b0)), set32(kBlockSide - 1));
   };
-  const BlockBoxLanes blocks{sample<Coarse>(left, task.x0), sample<Coarse>(top, task.y0), last(bx0, bx1),
+  const BlockBoxLanes blocks{sample<G>(left, task.x0), sample<G>(top, task.y0), last(bx0, bx1),
                              last(by0, by1)};
-  const std::uint32_t drawn = may_cover(box, area) & Numbers::set_up(task, t, area, blocks, out.edge, k);
+  const std::uint32_t drawn = may_cover(box, area) & Numbers::set_up(task, t, area, blocks, out, k);
 
   const std::uint32_t exact = set_up_depth(task, t, area, left, top, blocks, out, k);
   store(t.payload, out.payload + k);
-  store(lower(shift_right<2 * Coarse::kSubBits>(area.value)), out.twice_area_px2 + k);
+  store(lower(shift_right<2 * G::kSubBits>(area.value)), out.twice_area_px2 + k);
   store(bx0, out.bx0 + k), store(by0, out.by0 + k), store(bx1, out.bx1 + k), store(by1, out.by1 + k);
   for (std::uint32_t inexact = drawn & ~exact; inexact != 0; inexact &= inexact - 1) {
     const int lane = std::countr_zero(inexact), at = k + lane;

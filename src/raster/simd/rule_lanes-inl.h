@@ -21,6 +21,15 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
+// Whether all positions of stored triangles lie on the grid.
+template <class G>
+HWY_INLINE bool are_on(const TriangleLanes& t) {
+  V any = hn::Or(t.x[0], t.y[0]);
+  for (int i = 1; i < 3; ++i) any = hn::Or(any, hn::Or(t.x[i], t.y[i]));
+  const V spare = hn::And(any, hn::Set(D{}, (1 << G::kSpareBits) - 1));
+  return hn::AllTrue(D{}, hn::Eq(spare, hn::Zero(D{})));
+}
+
 // Triangles whose positions are in sub-units of the grid.
 template <class G>
 struct GridTriangles : TriangleLanes {

@@ -125,12 +125,16 @@ struct Area {
   V64 value;
   V64 flip;  // -1 where the sign was changed, that is, for the other winding
 };
-template <class G>
-HWY_INLINE Area area_of(const TriangleLanes64<G>& t) {
-  const V64 area = hn::Sub(product(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[2], t.y[0])),
-                           product(hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0])));
+// By the sides from vertex 0 to vertices 1 and 2.
+HWY_INLINE Area area_of(V32 dx1, V32 dx2, V32 dy1, V32 dy2) {
+  const V64 area = hn::Sub(product(dx1, dy2), product(dy1, dx2));
   const V64 flip = hn::VecFromMask(D64{}, hn::Lt(area, hn::Zero(D64{})));
   return {flipped(area, flip), flip};
+}
+template <class G>
+HWY_INLINE Area area_of(const TriangleLanes64<G>& t) {
+  return area_of(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.x[2], t.x[0]), hn::Sub(t.y[1], t.y[0]),
+                 hn::Sub(t.y[2], t.y[0]));
 }
 
 // Bits of the triangles that have an area, and a box that is not empty.
