@@ -36,4 +36,13 @@ TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, i
   return stream;
 }
 
+std::optional<Drawable> in_floats(const Drawable& drawable) {
+  const auto* stream = std::get_if<TriangleStream>(&drawable);
+  if (stream == nullptr || stream->exact.empty()) return {};
+  TriangleStream rounded{stream->width, stream->height, {}};
+  for (const auto& [v, colour] : stream->exact)
+    rounded.triangles.push_back({{glm::vec3(v[0]), glm::vec3(v[1]), glm::vec3(v[2])}, colour});
+  return rounded;
+}
+
 }  // namespace edgewise::lab

@@ -1,6 +1,8 @@
-// Converts screen triangles to a stream. The front end converts it back to the same coverage and colours.
+// Converts screen triangles to a stream, which the front end converts back to the same coverage and colours,
+// and streams in double to floats.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "edgewise/scene.h"
@@ -12,5 +14,8 @@ namespace edgewise::lab {
 // floats in [0, 1], by at most 64 units; those that came from such floats become the same depths again. In
 // double, all do.
 TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, int height);
+
+// A stream in double, rounded to floats; nothing for other drawables.
+std::optional<Drawable> in_floats(const Drawable& drawable);
 
 }  // namespace edgewise::lab

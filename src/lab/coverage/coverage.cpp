@@ -12,6 +12,7 @@
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
 #include "lab/coverage/draw_in_sets.h"
+#include "lab/to_stream.h"
 
 #ifndef EDGEWISE_MORE_COVERAGE_METHODS
 #define EDGEWISE_MORE_COVERAGE_METHODS(X)
@@ -160,6 +161,7 @@ std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
 }
 
 CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options) {
+  if (const auto rounded = in_floats(drawable)) return coverage_scene(*rounded, options);
   const Cull cull = options.cull;
   options.cull = Cull::none;
   options.keep_unsnapped = true;

@@ -124,8 +124,8 @@ struct CoverageScene {
   Window window() const { return {size.width, size.height}; }
 };
 
-// The front end's triangles before and after snapping. Culls by the exact sign of a triangle's area before
-// snapping, so that all methods get the same triangles.
+// The front end's triangles before and after snapping. A stream in double is rounded to floats. Culls by the
+// exact sign of a triangle's area before snapping, so that all methods get the same triangles.
 CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options);
 
 // Small scenes on which coverage methods fail, as unsnapped screen triangles.

@@ -2,10 +2,12 @@
 
 #include "core/grid.h"
 #include "edgewise/contract.h"
+#include "lab/to_stream.h"
 
 namespace edgewise::lab {
 
 void Needs::add(const Drawable& drawable, FrontendOptions options) {
+  if (const auto rounded = in_floats(drawable)) return add(*rounded, options);
   options.payload = Payload::id;
   options.shade = false;
   options.keep_unsnapped = options.keep_states = false;

@@ -51,7 +51,8 @@ class Needs {
  public:
   explicit Needs(const NeedsOptions& options) : options_(options), coverage_(options.displacement) {}
 
-  // Studies the next frame. All frames must be of one size and of one kind, scenes or streams.
+  // Studies the next frame. All frames must be of one size and of one kind, scenes or streams. Those in
+  // double are rounded to floats.
   void add(const Drawable& drawable, FrontendOptions options);
 
   std::uint64_t frames() const { return frames_; }

@@ -143,13 +143,12 @@ class Assembly {
   }
 
   void add(const TriangleStream& stream) {
-    for (std::uint32_t id = 0; id < stream.size(); ++id) {
-      const ExactStreamTriangle triangle = stream.at(id);
-      const glm::dvec3* const v = triangle.vertex;
+    for (std::uint32_t id = 0; id < stream.triangles.size(); ++id) {
+      const glm::vec3* const v = stream.triangles[id].vertex;
       const auto clip_vertex = [&](int k) { return ClipVertex{v[k].x, v[k].y, v[k].z, 1.0}; };
       ProjectedVertex corner[3];
       for (int k = 0; k < 3; ++k) {
-        corner[k] = project(static_cast<float>(v[k].x), static_cast<float>(v[k].y), v[k].z);
+        corner[k] = project(v[k].x, v[k].y, v[k].z);
         corner[k].snapped.outside |= outside_of(clip_vertex(k), view_);
       }
       add_triangle(corner[0], corner[1], corner[2], id, false, clip_vertex);
