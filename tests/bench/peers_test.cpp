@@ -13,6 +13,7 @@
 
 #include "bench/workloads/peers.h"
 #include "bench/workloads/stage.h"
+#include "core/grid.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
@@ -148,8 +149,10 @@ class Mirror final : public PeerFrame {
     for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
       ScreenTriangle t{{}, {}, {}, mesh.payloads[i + 2]};
       for (std::size_t k = 0; k < 3; ++k) {
-        t.x_q15[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].x * kPixel_q15));
-        t.y_q15[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].y * kPixel_q15));
+        t.x_q15[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].x * Coarse::kSub))
+                     << Coarse::kSpareBits;
+        t.y_q15[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].y * Coarse::kSub))
+                     << Coarse::kSpareBits;
         t.z[k] = static_cast<std::uint32_t>(double{mesh.positions[i + k].z} * contract::kDepthRange) +
                  contract::kDepthHead;
       }

@@ -59,7 +59,7 @@ TEST(RandomCases, DependOnSeedAndNumberAlone) {
     EXPECT_TRUE(seen.insert(fingerprint(make_case(2, number))).second) << number;
     all = all * 31 + here;
   }
-  EXPECT_EQ(all, 18115382267203130627u)
+  EXPECT_EQ(all, 14202305222529980539u)
       << "not the same on every machine and with every compiler, or changed";
 }
 
@@ -308,7 +308,7 @@ TEST(RandomFindings, IncludeAWrongFrontEnd) {
     return execution.threads > 1 && !all.empty() ? all.first(all.size() - 1) : all;
   };
   plan.failure_folder = folder.path() / "failures";
-  const std::string finding = finding_with(plan, "(stream, 8 bits): front end (");
+  const std::string finding = finding_with(plan, "(stream, 11 bits): front end (");
   EXPECT_EQ(read_tri(file_of(finding)).size(), 1u) << finding;
 }
 

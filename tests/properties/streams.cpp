@@ -137,8 +137,9 @@ TriangleStream make_float_stream(Random& random, int size) {
 // Half of the triangles get one distant vertex, half an edge with two distant ends that crosses the image.
 TriangleStream make_far_stream(Random& random, int size) {
   TriangleStream stream = make_float_stream(random, size);
+  // Up to about twice the guard band: differences of positions must fit 32 bits.
   const auto far = [&](glm::vec3& v, glm::vec2 direction) {
-    const glm::vec2 at = glm::vec2(v) + direction * random.uniform(100.0f, 100'000.0f);
+    const glm::vec2 at = glm::vec2(v) + direction * random.uniform(100.0f, 30'000.0f);
     v.x = at.x, v.y = at.y;
   };
   for (StreamTriangle& t : stream.triangles) {

@@ -285,10 +285,10 @@ TEST(Annotations, ListsTheTrianglesOfAPixelNearestFirst) {
 
 TEST(Annotations, GiveEdgeValuesAtTheSample) {
   // A right triangle of 2 x 2 px; the sample of pixel (0, 0) is 1/2 px from both legs.
-  const ScreenTriangle t{{0, 512, 0}, {0, 0, 512}, {1000, 1000, 1000}, 7};
+  const ScreenTriangle t{{0, 2 << 15, 0}, {0, 0, 2 << 15}, {1000, 1000, 1000}, 7};
   const auto at = [&](int x, int y) { return triangles_of(std::span(&t, 1), {x, y}); };
   ASSERT_EQ(at(0, 0).size(), 1u);
-  EXPECT_EQ(at(0, 0)[0].edges, (std::array<std::int64_t, 3>{65536, 131072 - 1, 65536}));
+  EXPECT_EQ(at(0, 0)[0].edges, (std::array<std::int64_t, 3>{1 << 30, (std::int64_t{1} << 31) - 1, 1 << 30}));
   EXPECT_TRUE(at(0, 0)[0].covers());
   ASSERT_EQ(at(1, 0).size(), 1u);  // its sample lies on the hypotenuse, which is neither left nor top
   EXPECT_FALSE(at(1, 0)[0].covers());
