@@ -73,15 +73,15 @@ void draw_in_parts(Backend& backend, std::span<const ScreenTriangle> triangles, 
   }
 }
 
-// The triangles after writing and reading them as a stream, which rounds depths to floats.
+// The triangles after writing and reading them as a stream, which may round depths to floats.
 std::vector<ScreenTriangle> replayed(const Case& c) {
   Frontend frontend;
-  const auto again =
-      frontend.run(lab::to_stream(c.triangles, c.width, c.height), {.width = c.width,
-                                                                    .height = c.height,
-                                                                    .cull = Cull::none,
-                                                                    .shade = false,
-                                                                    .subpixel_bits = kMaxSubpixelBits});
+  const FrontendOptions options{.width = c.width,
+                                .height = c.height,
+                                .cull = Cull::none,
+                                .shade = false,
+                                .subpixel_bits = kMaxSubpixelBits};
+  const auto again = frontend.run(lab::to_stream(c.triangles, c.width, c.height), options);
   return {again.begin(), again.end()};
 }
 
