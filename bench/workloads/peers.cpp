@@ -251,7 +251,8 @@ PortableJudgement judge_portable(const Workload& workload, std::span<const std::
 
 void PeerStage::compare(Row& row) {
   const Workload& workload = *row.workload;
-  const int bits = workload.frontend_options().subpixel_bits, peer_bits = row.peer->subpixel_bits();
+  const int bits = workload.frontend_options().subpixel_bits,
+            peer_bits = std::min(row.peer->subpixel_bits(), kMaxSubpixelBits);
   const auto load = [&](PeerPayload payload) {
     auto frame =
         row.peer->load(peer_scene(workload, payload, std::max(bits, peer_bits)), row.execution.threads);

@@ -242,8 +242,9 @@ edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double l
  * it is 0, and usually it is below 2^-19.
  * Planes must overlap neither each other nor the frame. Strides are in floats, from row to row. `ids` must
  * show this scene alone, drawn with these options, which must not be null and must ask for ids; the scissor
- * does not count. So if subpixel_bits are not those of the draw, it fails. If the frame shows several, pass a
- * copy of its depths in which the pixels of the others are EDGEWISE_DEPTH_CLEAR. */
+ * does not count. A frame of other subpixel_bits is an error, unless its depths are the same with these. If
+ * the frame shows several scenes, pass a copy of its depths in which the pixels of the others are
+ * EDGEWISE_DEPTH_CLEAR. */
 edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
                                       edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
                                       ptrdiff_t distance_stride);
