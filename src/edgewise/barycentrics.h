@@ -40,11 +40,12 @@ struct BarycentricsView {
 // is 1 to 2 in usual views. Rule 11 has e for matrices, scaled instances and clipped triangles.
 //
 // `ids` is a frame of `drawable` alone, drawn with `options`, where payload is Payload::id. A pixel is
-// background if its depth is contract::kDepthClear. Any other depth must be its triangle's, which tells
-// frames with other subpixel bits. If the frame shows several draws, pass a copy of its depths in which the
-// pixels of the others are background. Each thread keeps less than 1 MB until the call ends. A pixel costs
-// three edge functions, nine products and three divisions, in doubles. A visible triangle is also transformed
-// again, once or a few times; with triangles of a few pixels, this costs more.
+// background if its depth is contract::kDepthClear. Any other depth must be its triangle's: so a
+// frame of other subpixel bits is an error where they change a depth. If the frame shows several draws, pass
+// a copy of its depths in which the pixels of the others are background. Each thread keeps less than 1 MB
+// until the call ends. A pixel costs three edge functions, nine products and three divisions, in doubles. A
+// visible triangle is also transformed again, once or a few times; with triangles of a few pixels, this costs
+// more.
 //
 // Throws std::invalid_argument
 // - for planes that cannot be read or written, or that overlap in memory, for options of another size than

@@ -139,11 +139,13 @@ namespace contract {
 // perspective, and L < f + 2^13. So the error is under 2^-17 px for 1/4 px < f < 2^32 px, as it is in a
 // parallel projection for L D / w < 2^32 px.
 //
-// A vertex that planes cut off is interpolated in double too. Each of up to six planes adds 5 L D, for the D
-// of the farthest corner: a new vertex lies on an edge whose error is below
+// This holds while world positions are below 2^40 D: the product cancels two of them.
+//
+// A vertex that planes cut off is interpolated in double too. Each of up to six planes adds 5 L D. With w of
+// the new vertex and D of the farthest corner, the new vertex is off its edge by less than
 //   2^-47 (L + 2^14 Lw) D / w px
-// That is under 2^-17 px while D < 2^15 w in an image of less than 2^13 px with f < 2^14 px. Along its edge,
-// a new vertex is where the rounded distances from the plane place it.
+// That is under 2^-17 px while D < 2^14 w in an image of less than 2^13 px with f < 2^14 px. No bound is
+// claimed for the error along the edge, which moves no other edge by more than that.
 inline constexpr double kPositionError = 0x1p-19;
 inline constexpr double kFinePositionError = 0x1p-50;
 

@@ -63,7 +63,8 @@ HWY_INLINE Words words_in_double(F&& f, VF x, VF y, VF z) {
 
 // snap(), quantize_depth() and ViewDepth::units() of fixed.h, for vectors.
 
-// The floats are rounded once, so this is exact for all numbers of bits. Only valid within the guard band.
+// The floats are rounded once, so this is exact for all numbers of bits. Only valid within the guard band,
+// and up to 8 bits: one float beyond it still rounds to its limit.
 HWY_INLINE V snap(VF px, int bits) {
 #if HWY_TARGET == HWY_SCALAR  // Highway 1.0.3 rounds 0.49999997 up there
   return hn::Set(D{}, edgewise::snap(double{hn::GetLane(px)}, bits));

@@ -228,7 +228,9 @@ class Throws : public Backend {
 // The .tri file that a finding names; empty if it names none.
 std::string file_of(const std::string& finding) {
   std::smatch found;
-  return std::regex_search(finding, found, std::regex("triangles show it: (.*)\n")) ? found[1].str() : "";
+  return std::regex_search(finding, found, std::regex("triangles show it with --subpixel-bits \\d+: (.*)\n"))
+             ? found[1].str()
+             : "";
 }
 
 TEST(RandomFindings, NameThePixelAndTheFewestTriangles) {
@@ -247,7 +249,7 @@ TEST(RandomFindings, NameThePixelAndTheFewestTriangles) {
       "in 1 of "
       "\\d+x\\d+ "
       "pixels, the first at x 0, y 0: depth 0x(\\w{8}), payload 0x(\\w{8}) instead of 0x(\\w{8}), 0x\\3\n"
-      "  1 of its triangles show it: .*\n"
+      "  1 of its triangles show it with --subpixel-bits 15: .*\n"
       "  reproduce: edgewise verify --random --seed 8 --case \\1\n");
   for (const std::string& finding : report.findings) {
     if (finding.find(", in parts)") != std::string::npos) continue;  // several wrong draws

@@ -18,6 +18,8 @@ constexpr int kFrames = 48;  // of a group
 constexpr int kCulls = 3;    // a scene at one time is drawn culling nothing, back faces, front faces
 constexpr std::array<std::pair<int, int>, 3> kSizes{{{61, 37}, {127, 71}, {331, 187}}};  // px
 constexpr int kRandomGroups = 160;
+constexpr std::array kOtherBits{4, 12, 15};  // subpixel bits; 8 otherwise
+constexpr int kOneIn = 10;                   // frames has a twin with other subpixel bits
 constexpr std::uint64_t kSeed = 47;
 
 struct BuiltIn {
@@ -91,6 +93,18 @@ Group with_files(const char* prefix, const FileFormat& format, Group group) {
   return group;
 }
 
+Group at_bits(int bits, Group group) {
+  group.name += text(" at %d bits", bits);
+  group.frames = (group.frames + kOneIn - 1) / kOneIn;
+  group.frame = [bits, frame = group.frame](int i) {
+    Frame made = frame(i * kOneIn);
+    made.frontend.subpixel_bits = bits;
+    if (!made.redraw.empty()) made.redraw += text(" --subpixel-bits %d", bits);
+    return made;
+  };
+  return group;
+}
+
 // Far from the origin: until doubles are too coarse to hold the scene.
 void far_away(Scene& scene, int step) {
   const glm::dvec3 by = std::ldexp(1.0, 3 * step) * glm::dvec3(1.0, -0.75, 0.5);
@@ -148,16 +162,18 @@ void add_conformance_streams(std::vector<Group>& all) {
   }
 }
 
-Frame random_frame(std::uint64_t number) {
-  randomized::Case c = randomized::make_case(kSeed, number);
+Frame random_frame(std::uint64_t number, int bits) {
+  randomized::Case c = randomized::make_case(kSeed, number, bits);
   Frame frame{c.width,
               c.height,
               c.background,
               std::move(c.triangles),
               nullptr,
               c.frontend,
-              text("edgewise verify --random --seed %d --case %d", static_cast<int>(kSeed),
-                   static_cast<int>(number))};
+              bits == randomized::random_subpixel_bits(kSeed, number)
+                  ? text("edgewise verify --random --seed %d --case %d", static_cast<int>(kSeed),
+                         static_cast<int>(number))
+                  : ""};
   if (c.drawable) frame.drawable = std::make_shared<const Drawable>(std::move(*c.drawable));
   return frame;
 }
@@ -193,9 +209,17 @@ std::vector<Group> groups() {
            return frame;
          }});
 
-  for (int part = 0; part < kRandomGroups; ++part)
-    all.push_back({text("random %d", part), kFrames,
-                   [=](int i) { return random_frame(static_cast<std::uint64_t>(part * kFrames + i)); }});
+  for (std::size_t i = 0, end = all.size(); i < end; ++i)
+    all.push_back(at_bits(kOtherBits[i % kOtherBits.size()], all[i]));
+
+  const auto add_random = [&](int bits, int groups) {
+    for (int part = 0; part < groups; ++part)
+      all.push_back(
+          {text("random %d", part) + (bits == 8 ? "" : text(" at %d bits", bits)), kFrames,
+           [=](int i) { return random_frame(static_cast<std::uint64_t>(part * kFrames + i), bits); }});
+  };
+  add_random(8, kRandomGroups);
+  for (const int bits : kOtherBits) add_random(bits, kRandomGroups / 30);
 
   const auto [width, height] = kSizes[0];
   all.push_back(with_files("ppm", kPpm, built_in({"cubes", 1, 0}, width, height, 0)));

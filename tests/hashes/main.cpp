@@ -168,7 +168,7 @@ std::string triangle_at(std::span<const ScreenTriangle> triangles, std::uint32_t
     for (int i = 0; i < 3; ++i)
       text += " (" + std::to_string(t.x_q15[i]) + ", " + std::to_string(t.y_q15[i]) + ", " +
               std::to_string(t.z[i]) + ")";
-    return text + " in 1/256 px and units of depth";
+    return text + " in 2^-15 px and units of depth";
   }
   return depth == contract::kDepthClear ? "no triangle" : "no triangle of this depth";
 }

@@ -140,9 +140,9 @@ of triangles, and scenes around the camera that go through the front end. Each c
 thread and on several, with random tile sizes, strides, alignments and optimizations switched off.
 The front end is compared with its own code for single triangles. Verify describes a case's first
 difference of each backend, of the front end and from the oracle, up to 20 differences in all. For
-each it writes a .tri file with as few triangles as possible, unless only a scene shows it. To draw
-such a file as it was, add --subpixel-bits 15. --json writes one line, and
-scripts/reporting/shards.py adds lines up.
+each it writes a .tri file with as few triangles as possible, unless only a scene shows it, and says
+with how many --subpixel-bits to draw it. --json writes one line, and scripts/reporting/shards.py
+adds lines up.
 
 A case depends on the seed and its number alone. Case k of shard I/N is number I + k N, so shards
 are disjoint. A shard draws one case at a time: run one per core. On a signal, verify writes its

@@ -270,6 +270,7 @@ class Checker {
       if (differs(with_list(all), at_once)) probe = at_once;
     }
     TriangleStream stream;
+    int bits = kMaxSubpixelBits;  // of snapped positions
     if (probe.output == Output::frame || probe.output == Output::frame_in_parts) {
       const auto fails = [&](const auto& list) { return differs(with_list(list), probe); };
       const auto again = replayed(with_list(all));
@@ -278,6 +279,7 @@ class Checker {
       const auto* whole = std::get_if<TriangleStream>(&*c.drawable);
       if (whole == nullptr) return {};
       stream = *whole;
+      bits = c.frontend.subpixel_bits;
       const auto reduce = [&](auto TriangleStream::*list) {
         stream.*list = reduced(stream.*list, [&](const auto& fewer) {
           Case other = c;
@@ -293,7 +295,8 @@ class Checker {
     AtomicFile file(path);
     write_tri(file.stream(), stream);
     file.commit();
-    return fmt::format("  {} of its triangles show it: {}\n", stream.size(), tools::printable(path.string()));
+    return fmt::format("  {} of its triangles show it with --subpixel-bits {}: {}\n", stream.size(), bits,
+                       tools::printable(path.string()));
   } catch (const std::exception& error) {
     // Report the difference even if its file cannot be written.
     return fmt::format("  no file: {}\n", tools::printable(tools::reason_of(error)));

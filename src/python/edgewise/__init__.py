@@ -188,7 +188,7 @@ class _Drawable:
         frame.stats = Stats(**self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth,
                                                 ids, *options, clear or onto is None, scissor, progress))
         frame.has_ids = getattr(onto, "has_ids", None) if depth_only else ids
-        frame.subpixel_bits = subpixel_bits
+        frame.subpixel_bits = getattr(onto, "subpixel_bits", None) if depth_only else subpixel_bits
         return frame
 
 

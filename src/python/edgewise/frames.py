@@ -171,6 +171,7 @@ def visible_fraction(self: edgewise.Scene, frame: Frame, camera: Camera | Sequen
 
     frame, camera, cull and subpixel_bits: of one draw of ids from 0 on, of this scene alone. progress: as for amodal_masks().
     """
+    _check.id_frame(frame, 0, cull, subpixel_bits, threads)
     frame = _check.frame(frame)
     camera = camera if isinstance(camera, Camera) else _check.cameras(camera, "camera")
     visible = self.pixels_per_instance(frame)
@@ -192,6 +193,7 @@ def interpolate(self: edgewise.Scene, frame: Frame, attribute: ArrayLike | Seque
     of this scene alone. Background: NaN. The result has the arrays' type, or a float type that holds it; the weights are those of
     barycentrics(), as is progress.
     """
+    _check.id_frame(frame, 0, cull, subpixel_bits, threads)
     meshes = self._native.triangles()
     given = attribute if isinstance(attribute, (list, tuple)) else [attribute]
     arrays = [_check.as_array(values, "attribute", "an array, or a list of them") for values in given]

@@ -92,7 +92,7 @@ def portable(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int,
     """The pixels that rasterizers which follow Direct3D, Vulkan or WebGPU may draw differently, found as by `edgewise portable`.
 
     The camera of a scene must have a perspective projection and an affine view; a stream has none. bits: of subpixel
-    positions, at least; 1 to 15. Draw a picture to compare with others with as many subpixel_bits, or 8 if that is more. ulps:
+    positions, at least; 1 to 15. Draw the picture to compare others with, with as many subpixel_bits, but at least 8. ulps:
     error of the viewport transform. guard_band: how far triangles may reach beyond the picture, in px. depth: d16_unorm,
     d24_unorm or d32_sfloat.
     """

@@ -37,7 +37,8 @@ class Bins {
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            bool with_masks);
 
-  // Whether a triangle's position is not on the coarse grid. Kernels are chosen by it (core/grid.h).
+  // Whether a triangle's position is not on the coarse grid. If so, kernels draw on the fine one
+  // (core/grid.h).
   bool fine() const { return fine_; }
 
   // Indices refer to these triangles: the stored ones of the source, or those that were kept of it.

@@ -226,7 +226,7 @@ HWY_INLINE void find_covered(const GridTriangles<G>& t, const SmallSides& sides,
       half = hn::Or(half, hn::ShiftLeftSame(span.bits(), y % 4 * 8));
     }
   } else {
-    // Floats would not decide as integers do: tests each sample.
+    // Floats are not exact here, so each sample is tested.
     const int columns = most(width);
     for (int y = 0; y < rows; ++y) {
       V value[3] = {edges.first[0], edges.first[1], edges.first[2]};

@@ -106,7 +106,7 @@ struct Batch {
     if constexpr (Numbers::kHasLongEdges) return (long_edges.triangles >> k & 1) != 0;
     return false;
   }
-  // What rejects blocks of triangle k, or accepts them for HiZ.
+  // The edges of triangle k that coarse rejection and HiZ test.
   HWY_INLINE const EdgeBatch<Value>* coarse_edges(int k) const {
     if constexpr (Numbers::kHasLongEdges)
       if (is_long(k)) return long_edges.upper;

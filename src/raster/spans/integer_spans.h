@@ -10,7 +10,7 @@ namespace edgewise {
 
 // The first pixel whose sample is not left of the edge from p down to q:
 //   ceil(((p.x - 2^14) dy + (s - p.y) dx) / (2^15 dy)), where s is the height of the row's sample.
-// All fits 64 bits: dy <= 2^30 and |dx| <= 2^30, so the numerator stays below 2^62 (proofs/spans.smt2).
+// All fits 64 bits: dy <= 2^30 and |dx| <= 2^30, so the numerator stays below 2^61 (proofs/spans.smt2).
 inline std::int64_t first_right_of(std::int32_t px, std::int32_t py, std::int32_t qx, std::int32_t qy,
                                    int row) {
   using namespace contract;
