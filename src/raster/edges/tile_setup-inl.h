@@ -80,9 +80,9 @@ HWY_INLINE V32 thrice(V32 v) {
 struct LongEdges {
   static constexpr int kLowerBits = Coarse::kSpareBits;
   static constexpr std::int32_t kMostCarry = 2 * kMaxTile - 2;
-  std::uint32_t triangles;           // bit k: triangle k has a long edge. Then all its edges are pairs
   EdgeBatch<std::int32_t> upper[3];  // rise and range include the carry
   Linear<std::int32_t> lower[3];
+  std::uint32_t triangles;  // bit k: triangle k has a long edge. Then all its edges are pairs
 };
 struct NoLongEdges {};
 
@@ -91,7 +91,6 @@ template <class Numbers>
 struct Batch {
   using Value = typename Numbers::Value;
   EdgeBatch<Value> edge[3];
-  std::conditional_t<Numbers::kHasLongEdges, LongEdges, NoLongEdges> long_edges;
   Linear<std::int32_t> depth;       // rule 6, in wrapping int32
   std::int32_t depth_rise[kBatch];  // as in EdgeBatch
   // For HiZ: no pixel that the triangle covers in a block is nearer than this function of the block's first
@@ -101,6 +100,7 @@ struct Batch {
   std::int32_t payload[kBatch];
   std::int32_t twice_area_px2[kBatch];
   std::int32_t bx0[kBatch], by0[kBatch], bx1[kBatch], by1[kBatch];  // the box in blocks, inclusive
+  std::conditional_t<Numbers::kHasLongEdges, LongEdges, NoLongEdges> long_edges;
 
   HWY_INLINE bool is_long(int k) const {
     if constexpr (Numbers::kHasLongEdges) return (long_edges.triangles >> k & 1) != 0;
