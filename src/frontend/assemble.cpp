@@ -18,9 +18,9 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 // Returns false and appends nothing if add_one() must handle these triangles.
+template <bool kFine>
 HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, const Corners& corners,
                                 std::size_t offset, ChunkOutput& out) {
-  if (task.one_by_one()) return false;
   const D d;
   const std::uint32_t* index = &corners.indices[offset].x;
   const auto corner = [&](int k) HWY_ATTR {
@@ -32,16 +32,18 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, const C
   const V any = hn::Or(a.word[3], hn::Or(b.word[3], c.word[3]));
   const auto special = hn::Ne(hn::And(any, hn::Set(d, kMustClip | kNotFinite)), hn::Zero(d));
   if (!hn::AllFalse(d, hn::AndNot(outside, special))) return false;
-  cull_and_append({{a.word[0], b.word[0], c.word[0]},
-                   {a.word[1], b.word[1], c.word[1]},
-                   {a.word[2], b.word[2], c.word[2]},
-                   counting_from(static_cast<int>(task.first_id + first))},
-                  outside, task.options, out, task.mesh.flags.empty() ? nullptr : &task.mesh.flags[first]);
+  cull_and_append<kFine>({{a.word[0], b.word[0], c.word[0]},
+                          {a.word[1], b.word[1], c.word[1]},
+                          {a.word[2], b.word[2], c.word[2]},
+                          counting_from(static_cast<int>(task.first_id + first))},
+                         outside, task.options.cull, out,
+                         task.mesh.flags.empty() ? nullptr : &task.mesh.flags[first]);
   return true;
 }
 
-void assemble(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
-              ChunkOutput& out) {
+template <bool kFine>
+void assemble_vectors(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
+                      ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const glm::uvec3 t = corners.indices[i - begin];
@@ -49,9 +51,16 @@ void assemble(const MeshTask& task, std::size_t begin, std::size_t end, const Co
     }
   };
   std::size_t i = begin;
-  for (; i + kLanes <= end; i += kLanes)
-    if (!assemble_vector(task, i, corners, i - begin, out)) one_by_one(i, i + kLanes);
+  if (!task.one_by_one())
+    for (; i + kLanes <= end; i += kLanes)
+      if (!assemble_vector<kFine>(task, i, corners, i - begin, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
+}
+
+void assemble(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
+              ChunkOutput& out) {
+  task.is_fine() ? assemble_vectors<true>(task, begin, end, corners, out)
+                 : assemble_vectors<false>(task, begin, end, corners, out);
 }
 
 IndexRange index_range(const Mesh& mesh, std::size_t begin, std::size_t end) {

@@ -23,14 +23,14 @@ inline double rounded_to_float(double v) {
   return double{rounded};
 }
 
-// A sum with this has no fraction bits: the addition rounds half to even, the FPU's default mode, and the
-// sum's bit pattern counts whole units.
-inline constexpr double kRoundDouble = 6755399441055744.0;  // 1.5 * 2^52, for |v| <= 2^51
-
-// The same for units of 2^-fraction_bits.
-constexpr double rounding_to(int fraction_bits) {
-  return kRoundDouble / (1 << fraction_bits);
+// A sum with this has so many fraction bits: the addition rounds half to even, the FPU's default mode, and
+// the sum's bit pattern counts units. For numbers of up to 2^51 units, and in float 2^22.
+template <typename Real = double>
+constexpr Real rounding_to(int fraction_bits) {
+  return static_cast<Real>(sizeof(Real) == sizeof(double) ? 0x1.8p52 : 0x1.8p23) /
+         static_cast<Real>(1 << fraction_bits);
 }
+inline constexpr double kRoundDouble = rounding_to(0);
 
 // Pixels → 2^-15 px, clamped to the guard band: rounding may put a clipped vertex slightly beyond it.
 inline std::int32_t snap(double px, int subpixel_bits = Coarse::kSubBits) {

@@ -8,6 +8,8 @@
 #define EDGEWISE_FRONTEND_LANES_INL_H
 #endif
 
+#include <array>
+
 #include "core/grid.h"
 #include "core/lanes-inl.h"
 #include "frontend/fixed.h"
@@ -22,63 +24,71 @@ HWY_INLINE VF real(V words) {
   return hn::BitCast(DF{}, words);
 }
 
-// f() of the arguments in double, rounded or truncated to Tag's type.
-template <class Tag, typename F, class... Vectors>
-HWY_INLINE hn::Vec<Tag> in_double(Tag d, F&& f, Vectors... v) {
+// f() of the arguments in double: for the lower and the upper lanes.
+template <typename F, class... Vectors>
+HWY_INLINE auto in_halves(F&& f, Vectors... v) {
 #if HWY_TARGET == HWY_SCALAR
-  const hn::Rebind<double, Tag> wide;
-  return hn::DemoteTo(d, f(hn::PromoteTo(wide, v)...));
+  return std::array{f(hn::PromoteTo(hn::Rebind<double, D>{}, v)...)};
 #else
-  const hn::Half<Tag> half;
-  const hn::Rebind<double, hn::Half<Tag> > wide;
-  const auto low = f(hn::PromoteTo(wide, hn::LowerHalf(hn::Half<hn::DFromV<Vectors> >{}, v))...);
-  const auto high = f(hn::PromoteTo(wide, hn::UpperHalf(hn::Half<hn::DFromV<Vectors> >{}, v))...);
-  return hn::Combine(d, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
+  const hn::Rebind<double, hn::Half<D> > wide;
+  return std::array{f(hn::PromoteTo(wide, hn::LowerHalf(hn::Half<hn::DFromV<Vectors> >{}, v))...),
+                    f(hn::PromoteTo(wide, hn::UpperHalf(hn::Half<hn::DFromV<Vectors> >{}, v))...)};
 #endif
 }
 
-// f() of the arguments in double: four words, whole numbers.
-template <typename F>
-HWY_INLINE Words words_in_double(F&& f, VF x, VF y, VF z) {
+// f() of the arguments in double, rounded to float.
+template <typename F, class... Vectors>
+HWY_INLINE VF in_double(F&& f, Vectors... v) {
+  const auto halves = in_halves(f, v...);
 #if HWY_TARGET == HWY_SCALAR
-  const hn::Rebind<double, D> wide;
-  const auto all = f(hn::PromoteTo(wide, x), hn::PromoteTo(wide, y), hn::PromoteTo(wide, z));
-  const auto word = [&](std::size_t k) HWY_ATTR { return hn::DemoteTo(D{}, all[k]); };
+  return hn::DemoteTo(DF{}, halves[0]);
 #else
-  const hn::Half<D> half;
-  const hn::Half<DF> half_f;
-  const hn::Rebind<double, hn::Half<D> > wide;
-  const auto low =
-      f(hn::PromoteTo(wide, hn::LowerHalf(half_f, x)), hn::PromoteTo(wide, hn::LowerHalf(half_f, y)),
-        hn::PromoteTo(wide, hn::LowerHalf(half_f, z)));
-  const auto high =
-      f(hn::PromoteTo(wide, hn::UpperHalf(half_f, x)), hn::PromoteTo(wide, hn::UpperHalf(half_f, y)),
-        hn::PromoteTo(wide, hn::UpperHalf(half_f, z)));
-  const auto word = [&](std::size_t k) HWY_ATTR {
-    return hn::Combine(D{}, hn::DemoteTo(half, high[k]), hn::DemoteTo(half, low[k]));
-  };
+  const hn::Half<DF> half;
+  return hn::Combine(DF{}, hn::DemoteTo(half, halves[1]), hn::DemoteTo(half, halves[0]));
 #endif
-  return {{word(0), word(1), word(2), word(3)}};
+}
+
+// The lower 32 bits of 64-bit lanes. `pick` chooses the lanes of a half. They may be doubles to which
+// rounding_to() was added: then these bits count units.
+template <class Halves, typename Pick>
+HWY_INLINE V low_words(const Halves& halves, Pick&& pick) {
+#if HWY_TARGET == HWY_SCALAR
+  const hn::Rebind<std::int64_t, D> wide;
+  return hn::Set(D{}, static_cast<std::int32_t>(hn::GetLane(hn::BitCast(wide, pick(halves[0])))));
+#else
+  return hn::ConcatEven(D{}, hn::BitCast(D{}, pick(halves[1])), hn::BitCast(D{}, pick(halves[0])));
+#endif
+}
+
+// f() of the arguments in double, rounded half to even.
+template <typename F, class... Vectors>
+HWY_INLINE V rounded_in_double(F&& f, Vectors... v) {
+  return low_words(in_halves(f, v...), [](auto wide) HWY_ATTR {
+    return hn::Add(wide, hn::Set(hn::DFromV<decltype(wide)>{}, kRoundDouble));
+  });
 }
 
 // snap(), quantize_depth() and ViewDepth::units() of fixed.h, for vectors.
 
-// The floats are rounded once, so this is exact for all numbers of bits. Only valid within the guard band.
+// Only valid within the guard band.
+template <bool kFine>
 HWY_INLINE V snap(VF px, int bits) {
+  const D d;
+  const DF df;
+  const int spare = contract::kFineBits - bits;
+  if constexpr (!kFine) {
+    const VF round = hn::Set(df, rounding_to<float>(bits));
+    return hn::ShiftLeftSame(hn::Sub(hn::BitCast(d, hn::Add(px, round)), hn::BitCast(d, round)), spare);
+  } else {
 #if HWY_TARGET == HWY_SCALAR  // Highway 1.0.3 rounds 0.49999997 up there
-  return hn::Set(D{}, edgewise::snap(double{hn::GetLane(px)}, bits));
+    return hn::Set(d, edgewise::snap(double{hn::GetLane(px)}, bits));
 #else
-  const V sub = hn::NearestInt(hn::Mul(px, hn::Set(DF{}, static_cast<float>(1 << bits))));
-  return hn::ShiftLeftSame(sub, contract::kFineBits - bits);
+    return hn::ShiftLeftSame(hn::NearestInt(hn::Mul(px, hn::Set(df, static_cast<float>(1 << bits)))), spare);
 #endif
+  }
 }
 
-// Units above depth 0 → whole ones, half to even.
-template <class Doubles>
-HWY_INLINE Doubles whole_units(Doubles units) {
-  const Doubles magic = hn::Set(hn::DFromV<Doubles>{}, kRoundDouble);
-  return hn::Sub(hn::Add(units, magic), magic);
-}
+// Units above depth 0, clamped to the range.
 template <class Doubles>
 HWY_INLINE Doubles within_range(Doubles units) {
   const hn::DFromV<Doubles> d;
@@ -88,19 +98,12 @@ HWY_INLINE V above_head_room(V units) {
   return hn::Add(units, hn::Set(D{}, contract::kDepthHead));
 }
 
-// units(v…) in double, rounded half to even, above the head-room.
-template <typename Units, class... Vectors>
-HWY_INLINE V round_depth(Units&& units, Vectors... v) {
-  return above_head_room(in_double(
-      D{}, [&](auto... wide_v) HWY_ATTR { return whole_units(units(wide_v...)); }, v...));
-}
-
 // The depths must lie in [0, 1].
 HWY_INLINE V quantize_depth(VF depth01) {
   const auto units = [](auto v) HWY_ATTR {
     return hn::Mul(v, hn::Set(hn::DFromV<decltype(v)>{}, double{contract::kDepthRange}));
   };
-  return round_depth(units, depth01);
+  return above_head_room(rounded_in_double(units, depth01));
 }
 
 HWY_INLINE V view_depth(const ViewDepth& depth, VF w) {
@@ -108,13 +111,14 @@ HWY_INLINE V view_depth(const ViewDepth& depth, VF w) {
     const hn::DFromV<decltype(v)> d;
     return within_range(hn::Div(hn::Mul(hn::Sub(v, hn::Set(d, depth.near_z)), hn::Set(d, depth.scale)), v));
   };
-  return round_depth(units, w);
+  return above_head_room(rounded_in_double(units, w));
 }
 
 // The sign of the area: -1, 0 or 1. A product of two differences has at most 60 bits, of coarse positions 46,
 // which are exact in double. Rounded products are in the right order, but may be equal. Then the difference
 // is so small that it does not wrap in 32 bits.
-HWY_INLINE V area_sign(const TriangleLanes& t, bool fine) {
+template <bool kFine>
+HWY_INLINE V area_sign(const TriangleLanes& t) {
   const D d;
   const V dx1 = hn::Sub(t.x[1], t.x[0]), dy1 = hn::Sub(t.y[1], t.y[0]), dx2 = hn::Sub(t.x[2], t.x[0]),
           dy2 = hn::Sub(t.y[2], t.y[0]);
@@ -124,20 +128,20 @@ HWY_INLINE V area_sign(const TriangleLanes& t, bool fine) {
   };
   const auto difference = [](auto x1, auto y1, auto x2, auto y2)
                               HWY_ATTR { return hn::Sub(hn::Mul(x1, y2), hn::Mul(y1, x2)); };
-  const V rounded = in_double(
-      d, [&](auto... v) HWY_ATTR { return sign(difference(v...)); }, dx1, dy1, dx2, dy2);
-  if (!fine) return rounded;
+  const V rounded =
+      rounded_in_double([&](auto... v) HWY_ATTR { return sign(difference(v...)); }, dx1, dy1, dx2, dy2);
+  if constexpr (!kFine) return rounded;
   return hn::IfThenElse(hn::Eq(rounded, hn::Zero(d)), sign(difference(dx1, dy1, dx2, dy2)), rounded);
 }
 
 // The last step of assemble.cpp and stream.cpp. Appends a vector of triangles that need no clipping, in
 // order. Drops triangles without area or with the wrong facing, and those that `outside` selects, which lie
 // beyond a side of the view. `flags` points to the triangles' flags, or is null.
-HWY_INLINE void cull_and_append(const TriangleLanes& t, hn::Mask<D> outside, const FrontendOptions& options,
-                                ChunkOutput& out, const std::uint8_t* flags = nullptr) {
+template <bool kFine>
+HWY_INLINE void cull_and_append(const TriangleLanes& t, hn::Mask<D> outside, Cull cull, ChunkOutput& out,
+                                const std::uint8_t* flags = nullptr) {
   const D d;
-  const V sign = area_sign(t, is_fine(options.subpixel_bits));
-  const Cull cull = options.cull;
+  const V sign = area_sign<kFine>(t);
   const V front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : 2);
   const V back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : 2);
   hn::Mask<D> faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));

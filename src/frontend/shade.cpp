@@ -97,7 +97,7 @@ HWY_INLINE VF cosines_of_normals(const ShadeTask& task, const Padded& normals, c
   const auto of_normal = [&](auto x, auto y, auto z) HWY_ATTR {
     return lambert(task, Vec3<decltype(x)>{x, y, z});
   };
-  return in_double(DF{}, of_normal, real(n.word[0]), real(n.word[1]), real(n.word[2]));
+  return in_double(of_normal, real(n.word[0]), real(n.word[1]), real(n.word[2]));
 }
 
 HWY_INLINE VF cosines_of_triangles(const ShadeTask& task, const Padded& positions, const Indices& index) {
@@ -106,7 +106,6 @@ HWY_INLINE VF cosines_of_triangles(const ShadeTask& task, const Padded& position
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
   return in_double(
-      DF{},
       [&](auto ax, auto ay, auto az, auto bx, auto by, auto bz, auto cx, auto cy, auto cz) HWY_ATTR {
         using Real3 = Vec3<decltype(ax)>;
         return lambert(task, across(Real3{ax, ay, az}, Real3{bx, by, bz}, Real3{cx, cy, cz}));

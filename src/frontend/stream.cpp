@@ -44,8 +44,8 @@ HWY_INLINE hn::Mask<D> beyond(const VF (&v)[3], int side_px) {
 }
 
 // Returns false and appends nothing if add_one() must handle these triangles.
+template <bool kFine>
 HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, ChunkOutput& out) {
-  if (task.one_by_one()) return false;
   constexpr auto kGuardPx = static_cast<float>(contract::kMaxImageSide);
   const FrontendOptions& options = task.options;
   prefetch(task.stream, first);
@@ -58,23 +58,30 @@ HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, ChunkOu
       hn::And(within(z, 0.0f, 1.0f), hn::And(within(x, -kGuardPx, kGuardPx), within(y, -kGuardPx, kGuardPx)));
   if (!hn::AllTrue(DF{}, plain)) return false;
   const bool ids = options.payload == Payload::id;
-  const int bits = options.subpixel_bits;
-  cull_and_append({{snap(x[0], bits), snap(x[1], bits), snap(x[2], bits)},
-                   {snap(y[0], bits), snap(y[1], bits), snap(y[2], bits)},
-                   {quantize_depth(z[0]), quantize_depth(z[1]), quantize_depth(z[2])},
-                   ids ? counting_from(static_cast<int>(options.first_id + first)) : t.payload},
-                  hn::Or(beyond(x, options.width), beyond(y, options.height)), options, out);
+  const auto snapped = [&](VF px) HWY_ATTR { return snap<kFine>(px, options.subpixel_bits); };
+  cull_and_append<kFine>({{snapped(x[0]), snapped(x[1]), snapped(x[2])},
+                          {snapped(y[0]), snapped(y[1]), snapped(y[2])},
+                          {quantize_depth(z[0]), quantize_depth(z[1]), quantize_depth(z[2])},
+                          ids ? counting_from(static_cast<int>(options.first_id + first)) : t.payload},
+                         hn::Or(beyond(x, options.width), beyond(y, options.height)), options.cull, out);
   return true;
 }
 
-void stream(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
+template <bool kFine>
+void stream_vectors(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
   std::size_t i = begin;
-  for (; i + kLanes <= end; i += kLanes)
-    if (!stream_vector(task, i, out)) one_by_one(i, i + kLanes);
+  if (!task.one_by_one())
+    for (; i + kLanes <= end; i += kLanes)
+      if (!stream_vector<kFine>(task, i, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
+}
+
+void stream(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
+  is_fine(task.options.subpixel_bits) ? stream_vectors<true>(task, begin, end, out)
+                                      : stream_vectors<false>(task, begin, end, out);
 }
 
 }  // namespace HWY_NAMESPACE

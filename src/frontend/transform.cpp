@@ -8,7 +8,6 @@
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <type_traits>
 
@@ -62,7 +61,7 @@ HWY_INLINE ClipVectors<VF> transform(const ScreenTransform& to_screen, const Off
         const auto limit = hn::Set(hn::DFromV<decltype(x)>{}, double{std::numeric_limits<float>::max()});
         return hn::Min(hn::Max(row_of_doubles(r, x, y, z), hn::Neg(limit)), limit);
       };
-      return in_double(d, value, p.x, p.y, p.z);
+      return in_double(value, p.x, p.y, p.z);
     };
     return {row(0), row(1), clamped(to_screen.z), w, clamped(to_screen.z - to_screen.w)};
   } else {
@@ -78,7 +77,7 @@ HWY_INLINE V quotient_depth(const ScreenTransform& to_screen, const Offsets& p) 
     return within_range(
         hn::Mul(hn::Div(row_of_doubles(to_screen.z, x, y, z), row_of_doubles(to_screen.w, x, y, z)), range));
   };
-  return round_depth(units, p.x, p.y, p.z);
+  return above_head_room(rounded_in_double(units, p.x, p.y, p.z));
 }
 
 // outside_of() of clip.h, and kNear where 1 / w is not finite, as it may be if near_z is subnormal. 16384 w
@@ -107,10 +106,15 @@ HWY_INLINE hn::Vec<Tag> outside_of(const ClipVectors<Reals>& v, Reals inverse_w,
   add_side(hn::Gt(v.x, hn::Mul(real(view.width_px), v.w)), kRight);
   add_side(hn::Lt(v.y, zero), kTop);
   add_side(hn::Gt(v.y, hn::Mul(real(view.height_px), v.w)), kBottom);
-  const auto projectable = hn::RebindMask(di, hn::IsFinite(inverse_w));
-  const auto inside = hn::Eq(hn::And(sides, hn::Set(di, kMustClip)), hn::Zero(di));
-  sides = hn::Or(sides, hn::IfThenElseZero(hn::AndNot(projectable, inside), hn::Set(di, kNear)));
-  const auto finite = hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::IsFinite(v.w));
+  constexpr bool kDouble = std::is_same_v<T, double>;
+  if constexpr (kHasZ || !kDouble) {
+    const auto projectable = hn::RebindMask(di, hn::IsFinite(inverse_w));
+    const auto inside = hn::Eq(hn::And(sides, hn::Set(di, kMustClip)), hn::Zero(di));
+    sides = hn::Or(sides, hn::IfThenElseZero(hn::AndNot(projectable, inside), hn::Set(di, kNear)));
+  }
+  // A sum of finite doubles is finite: they come from floats.
+  const auto finite = kDouble ? hn::IsFinite(hn::Add(hn::Add(v.x, v.y), v.w))
+                              : hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::IsFinite(v.w));
   return hn::IfThenElse(hn::RebindMask(di, finite), sides, hn::Set(di, kNotFinite));
 }
 
@@ -122,43 +126,49 @@ HWY_INLINE Words project(const MeshTask& task, const float* positions) {
   const VF inverse_w = hn::Div(hn::Set(DF{}, 1.0f), v.w);
   const int bits = task.options.subpixel_bits;
   const V depth = kHasZ ? quotient_depth(task.to_screen, p) : view_depth(task.depth, v.w);
-  return {{snap(hn::Mul(v.x, inverse_w), bits), snap(hn::Mul(v.y, inverse_w), bits), depth,
+  return {{snap<false>(hn::Mul(v.x, inverse_w), bits), snap<false>(hn::Mul(v.y, inverse_w), bits), depth,
            outside_of<kHasZ>(v, inverse_w, task.view)}};
 }
+
+// The words in lanes of 64 bits. The upper 32 bits do not count.
+template <class Doubles>
+struct WideWords {
+  Doubles x_q15, y_q15, z;
+  hn::Vec<hn::RebindToSigned<hn::DFromV<Doubles> > > outside;
+};
 
 // The same in double, for fine positions.
 template <bool kHasZ>
 HWY_INLINE Words project_in_double(const MeshTask& task, const float* positions) {
-  VF position_x, position_y, position_z;
-  hn::LoadInterleaved3(DF{}, positions, position_x, position_y, position_z);
-  const auto words = [&](auto x, auto y, auto z) HWY_ATTR {
+  const auto wide_words = [&](auto x, auto y, auto z) HWY_ATTR {
     using Doubles = decltype(x);
     const hn::DFromV<Doubles> d;
-    const hn::RebindToSigned<decltype(d)> di;
     const auto real = [&](double r) HWY_ATTR { return hn::Set(d, r); };
     const ScreenTransform& m = task.to_screen;
     x = hn::Sub(x, real(m.origin.x)), y = hn::Sub(y, real(m.origin.y)), z = hn::Sub(z, real(m.origin.z));
     const auto row = [&](int r) HWY_ATTR {
       return row_of_doubles({m.exact[0][r], m.exact[1][r], m.exact[2][r], m.exact[3][r]}, x, y, z);
     };
-    ClipVectors<Doubles> v{row(0), row(1), row(2), row(2), row(2)};
-    if constexpr (kHasZ) v.z = row_of_doubles(m.z, x, y, z), v.beyond = hn::Sub(v.z, v.w);
-    const Doubles inverse_w = hn::Div(real(1.0), v.w);
-    const Doubles round_px = real(rounding_to(task.options.subpixel_bits));
-    const auto snapped = [&](Doubles xw) HWY_ATTR {
-      const Doubles px = hn::Sub(hn::Add(hn::Mul(xw, inverse_w), round_px), round_px);
-      return hn::Mul(px, real(contract::kPixel_q15));
-    };
+    const Doubles w = row(2);
+    ClipVectors<Doubles> v{row(0), row(1), w, w, w};
+    if constexpr (kHasZ) v.z = row_of_doubles(m.z, x, y, z), v.beyond = hn::Sub(v.z, w);
+    const Doubles inverse_w = hn::Div(real(1.0), w);
     const Doubles above_near = kHasZ ? hn::Mul(v.z, real(contract::kDepthRange))
-                                     : hn::Mul(hn::Sub(v.w, real(task.depth.near_z)), real(task.depth.scale));
-    const auto outside = hn::BitCast(di, real(0x1p52));
-    return std::array{
-        snapped(v.x), snapped(v.y), whole_units(within_range(hn::Mul(above_near, inverse_w))),
-        hn::Sub(hn::BitCast(d, hn::Or(outside, outside_of<kHasZ>(v, inverse_w, task.view))), real(0x1p52))};
+                                     : hn::Mul(hn::Sub(w, real(task.depth.near_z)), real(task.depth.scale));
+    const Doubles round_px = real(rounding_to(task.options.subpixel_bits));
+    return WideWords<Doubles>{hn::Add(hn::Mul(v.x, inverse_w), round_px),
+                              hn::Add(hn::Mul(v.y, inverse_w), round_px),
+                              hn::Add(within_range(hn::Mul(above_near, inverse_w)), real(kRoundDouble)),
+                              outside_of<kHasZ>(v, inverse_w, task.view)};
   };
-  Words vertices = words_in_double(words, position_x, position_y, position_z);
-  vertices.word[2] = above_head_room(vertices.word[2]);
-  return vertices;
+  VF x, y, z;
+  hn::LoadInterleaved3(DF{}, positions, x, y, z);
+  const auto halves = in_halves(wide_words, x, y, z);
+  const int spare = contract::kFineBits - task.options.subpixel_bits;
+  return {{hn::ShiftLeftSame(low_words(halves, [](const auto& half) { return half.x_q15; }), spare),
+           hn::ShiftLeftSame(low_words(halves, [](const auto& half) { return half.y_q15; }), spare),
+           above_head_room(low_words(halves, [](const auto& half) { return half.z; })),
+           low_words(halves, [](const auto& half) { return half.outside; })}};
 }
 
 // Transforms a whole vector of vertices. Returns the sides that each lies beyond; all bits if not finite.
