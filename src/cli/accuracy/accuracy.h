@@ -44,7 +44,7 @@ struct CrackCounts {
 };
 
 struct CoverageScores {
-  lab::CoverageScore snapped, floats;  // against each reference: positions after and before snapping
+  lab::CoverageScore snapped, source;  // against each reference: the snapped positions, and the source
   CrackCounts cracks;
   lab::VisibleTriangleScore visible;
 };
@@ -84,7 +84,7 @@ struct CubeCounts {
 struct CubeMethodResult {
   std::string name;
   bool exact;
-  CubeCounts snapped, floats;  // against each reference
+  CubeCounts snapped, source;  // against each reference
   PerFrame gaps, double_hits;
 };
 struct CubeResult {

@@ -96,7 +96,7 @@ void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& r
   result.height = scene.view.size.height;
   result.triangles = scene.faces.size();
   result.covered = static_cast<std::uint64_t>(std::count_if(
-      facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.floats.covers_sample; }));
+      facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.source.covers_sample; }));
   score_all(methods, judging, result,
             [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
   std::vector<std::uint8_t> front(scene.faces.size());
@@ -104,7 +104,7 @@ void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& r
   if (scene.faces.size() > kMostPictured) return;
   picture_all(
       methods, judging, result,
-      [](const Score& score) { return std::get<lab::FacingScores>(score).floats.misclassified != 0; },
+      [](const Score& score) { return std::get<lab::FacingScores>(score).source.misclassified != 0; },
       [&](const lab::FacingMethod& method) {
         method.classify(scene, front);
         return lab::mark_faces(scene, facts, front);

@@ -50,14 +50,14 @@ struct AddScore {
   }
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
-    method["float"] = score_json(s.floats, scene.crossings);
+    method["source"] = score_json(s.source, scene.crossings);
     method["cracks"] = {{"gaps", s.cracks.gaps},
                         {"double_hits", s.cracks.double_hits},
                         {"t_junctions", s.cracks.t_junctions}};
     if (s.cracks.folds) method["cracks"]["folds"] = *s.cracks.folds;
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
-    add_wrong_pixels(method["float"], s.visible.wrong_floats);
-    method["float"]["wrong_surface_pixels"] = s.visible.wrong_surface;
+    add_wrong_pixels(method["source"], s.visible.wrong_source);
+    method["source"]["wrong_surface_pixels"] = s.visible.wrong_surface;
     const lab::CoverageMethod& scored = methods.find_coverage(method["name"].get<std::string>());
     if (scored.contract_depth && scored.info.exact)
       method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
@@ -66,12 +66,12 @@ struct AddScore {
   void operator()(const lab::VisibilityScores& s) const {
     method["snapped"] = score_json(s.snapped);
     method["snapped"]["depth_ties"] = s.depth_ties;
-    method["float"] = score_json(s.floats);
+    method["source"] = score_json(s.source);
     method["broken"] = s.broken;
   }
   void operator()(const lab::FacingScores& s) const {
     method["snapped"] = score_json(s.snapped);
-    method["float"] = score_json(s.floats);
+    method["source"] = score_json(s.source);
     method["disagreements"] = s.disagreements;
     method["broken"] = s.broken;
   }
@@ -131,7 +131,7 @@ Json cube_json(const CubeResult& cube) {
   Json result{
       {"frames", cube.frames}, {"width", cube.width}, {"height", cube.height}, {"methods", Json::array()}};
   for (const CubeMethodResult& method : cube.methods) {
-    Json& entry = result["methods"].emplace_back(counts_json(method.floats, cube.frames));
+    Json& entry = result["methods"].emplace_back(counts_json(method.source, cube.frames));
     entry["name"] = method.name;
     entry["gaps"] = per_frame_json(method.gaps, cube.frames);
     entry["double_hits"] = per_frame_json(method.double_hits, cube.frames);

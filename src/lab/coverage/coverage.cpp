@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
@@ -158,24 +159,27 @@ std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
   return result;
 }
 
-CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options) {
-  const Cull cull = options.cull;
-  options.cull = Cull::none;
+void CoverageScene::keep_if(const std::function<bool(std::size_t)>& keep) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < floats.size(); ++i) {
+    if (!keep(i)) continue;
+    floats[kept] = floats[i];
+    snapped[kept++] = snapped[i];
+  }
+  floats.resize(kept);
+  snapped.resize(kept);
+}
+
+CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions options) {
+  const Cull cull = std::exchange(options.cull, Cull::none);
   options.keep_unsnapped = true;
   Frontend frontend;
   const auto screen = frontend.run(drawable, options);
   CoverageScene scene{{options.width, options.height},
                       unsnapped(screen, frontend.unsnapped()),
                       {screen.begin(), screen.end()}};
-  if (cull == Cull::none) return scene;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < screen.size(); ++i) {
-    if (!keeps(cull, FloatTruth(scene.floats[i].at).facing())) continue;
-    scene.floats[kept] = scene.floats[i];
-    scene.snapped[kept++] = scene.snapped[i];
-  }
-  scene.floats.resize(kept);
-  scene.snapped.resize(kept);
+  if (cull != Cull::none)
+    scene.keep_if([&](std::size_t i) { return keeps(cull, FloatTruth(scene.floats[i].at).facing()); });
   return scene;
 }
 

@@ -114,19 +114,29 @@ std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles);
 std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
                                      std::span<const UnsnappedTriangle> at);
 
+class SceneTruth;  // lab/projection/truth.h
+
 // A picture's triangles as coverage methods take them.
 struct CoverageScene {
   Size size;
   std::vector<FloatTriangle> floats;
   std::vector<ScreenTriangle> snapped;
+  // Of a scene with a camera, from whose vertices a front end made these triangles: its truth, and of each of
+  // them the triangle in it. Otherwise null and empty: the floats themselves are the source.
+  std::shared_ptr<const SceneTruth> truth = nullptr;
+  std::vector<std::uint32_t> sources = {};
 
   CoverageInput input() const { return {floats, snapped}; }
   Window window() const { return {size.width, size.height}; }
+  // Drops the triangles for whose index keep() is false. Before there are `sources`.
+  void keep_if(const std::function<bool(std::size_t)>& keep);
 };
 
-// The front end's triangles before and after snapping. Culls by the exact sign of a triangle's area before
-// snapping, so that all methods get the same triangles.
+// The front end's triangles before and after snapping, and the truth that they are judged by. Culls by the
+// exact facing of their sources, so that all methods get the same triangles. A scene's payloads become ids.
 CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options);
+// The same with the front end's floats as the source.
+CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions options);
 
 // Small scenes on which coverage methods fail, as unsnapped screen triangles.
 struct CoverageCase {

@@ -21,10 +21,12 @@ Corner corner(const UnsnappedTriangle& t, int i) {
 }
 
 // Whether two corners are copies of one vertex.
+bool same(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::abs(a.x - b.x) <= kOnEdge_px && std::abs(a.y - b.y) <= kOnEdge_px &&
+         std::abs(a.z - b.z) <= kSameDepth;
+}
 bool same(const Corner& a, const Corner& b) {
-  return std::abs(double{a.x} - double{b.x}) <= kOnEdge_px &&
-         std::abs(double{a.y} - double{b.y}) <= kOnEdge_px &&
-         std::abs(double{a.z} - double{b.z}) <= kSameDepth;
+  return same(glm::dvec3(a.x, a.y, a.z), glm::dvec3(b.x, b.y, b.z));
 }
 
 // An edge of a triangle, in the direction that is clockwise on the screen.
@@ -215,6 +217,12 @@ bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b) {
   return false;
 }
 
+bool touch(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) {
+  return std::ranges::any_of(a, [&](const glm::dvec3& corner) {
+    return std::ranges::any_of(b, [&](const glm::dvec3& other) { return same(corner, other); });
+  });
+}
+
 Surface::Surface(std::span<const FloatTriangle> triangles) : triangles_(triangles) {
   do find_shared_edges();
   while (!find_t_junctions());
@@ -359,10 +367,14 @@ bool Surface::side_by_side(std::uint32_t a, std::uint32_t b) const {
 
 std::uint64_t Surface::crossings(Window window) const {
   double sum = 0.0;
+  const auto end = [&](std::uint32_t triangle, int i) {
+    const Corner c = corner(triangles_[triangle].at, i);
+    return glm::dvec2(c.x, c.y);
+  };
   for (std::uint32_t i = 0; i < triangles_.size(); ++i)
     for (int edge = 0; edge < 3; ++edge)
       if (const std::uint32_t other = across(i, edge); other != kNoTriangle && i < other)
-        sum += crossings_of(triangles_[i].at, edge, window);
+        sum += crossings_of(end(i, edge), end(i, edge + 1), window);
   return static_cast<std::uint64_t>(sum);
 }
 

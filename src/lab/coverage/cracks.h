@@ -22,8 +22,9 @@
 
 namespace edgewise::lab {
 
-// Whether two triangles have copies of one vertex.
+// Whether two triangles have copies of one vertex, or two outlines.
 bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b);
+bool touch(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b);
 
 // Which triangles of a picture adjoin. Two triangles share an edge if they lie on opposite sides of it and
 // both have copies of its two vertices. If an edge has more than two triangles, the k-th on one side shares

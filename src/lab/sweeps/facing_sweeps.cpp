@@ -18,7 +18,7 @@ Measured measure_scene(const FacingScene& scene) {
   const auto facts = facing_facts(scene);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    const FacingScore s = score(methods[i], scene, facts).floats;
+    const FacingScore s = score(methods[i], scene, facts).source;
     result.methods[i] = {s.misclassified, s.faces};
   }
   return result;

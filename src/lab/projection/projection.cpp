@@ -1,0 +1,66 @@
+#include "lab/projection/projection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lab/truth/scan.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+std::uint64_t differing(std::span<const Run> a, std::span<const Run> b) {
+  std::uint64_t count = 0;
+  for_each_difference(a, b,
+                      [&](const Run& run, bool) { count += static_cast<std::uint64_t>(run.x1 - run.x0); });
+  return count;
+}
+
+}  // namespace
+
+ProjectionScore& ProjectionScore::operator+=(const ProjectionScore& other) {
+  wrong += other.wrong, by_rounding += other.by_rounding, by_projection += other.by_projection;
+  return *this;
+}
+
+ProjectionJudge::ProjectionJudge(Scene scene, Size size)
+    : truth_(std::move(scene), size, Cull::back),
+      exact_(coverage_of(truth_, {size.width, size.height}, 1)),
+      crossings_(edge_crossings(truth_, exact_.window)) {}
+
+std::uint64_t ProjectionJudge::triangles() const {
+  std::uint64_t count = 0;
+  for (std::uint32_t i = 0; i < truth_.size(); ++i) count += truth_.facing(i) != 0;
+  return count;
+}
+
+std::vector<Run> ProjectionJudge::runs_of(std::span<const ProjectedTriangle> triangles) const {
+  std::vector<std::uint32_t> sources;
+  for (const ProjectedTriangle& t : triangles) sources.push_back(t.source);
+  auto runs = all_runs(
+      triangles.size(), [&](std::size_t i) { return FloatTruth(triangles[i].x_px, triangles[i].y_px); },
+      exact_.window, 1);
+  return DrawnRuns(std::move(runs), exact_.window).of_sources(sources).runs;
+}
+
+const ProjectionJudge::Rounded& ProjectionJudge::rounded(int bits) const {
+  Rounded& found = rounded_[static_cast<std::size_t>(bits)];
+  std::call_once(found.once, [&] {
+    found.runs = runs_of(exactly_projected(truth_, bits));
+    found.wrong = differing(exact_.runs, found.runs);
+  });
+  return found;
+}
+
+ProjectionScore ProjectionJudge::score(const ProjectionMethod& method) const {
+  const std::vector<Run> drawn = runs_of(method.project(truth_, method.snap_bits));
+  ProjectionScore score{differing(exact_.runs, drawn), 0, 0};
+  score.by_projection = score.wrong;
+  if (!method.snap_bits) return score;
+  const Rounded& exact = rounded(*method.snap_bits);
+  score.by_rounding = exact.wrong;
+  score.by_projection = differing(exact.runs, drawn);
+  return score;
+}
+
+}  // namespace edgewise::lab
