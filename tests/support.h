@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/grid.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
@@ -53,6 +54,12 @@ inline std::vector<lab::DrawOptions> executions() {
   for (const auto target : supported_targets())
     for (const auto& tiles : lab::kTileOptions) list.push_back({{1, 64, target}, tiles});
   return list;
+}
+
+// From 1/256 px, the grid of 8 subpixel bits.
+inline ScreenTriangle coarse(ScreenTriangle t) {
+  for (int i = 0; i < 3; ++i) t.x_q15[i] *= 1 << Coarse::kSpareBits, t.y_q15[i] *= 1 << Coarse::kSpareBits;
+  return t;
 }
 
 inline std::int32_t between(Random& random, std::int32_t low, std::int32_t high) {

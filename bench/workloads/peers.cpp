@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "core/grid.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
 #include "lab/portable/portable.h"
@@ -96,7 +97,7 @@ std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
 // and those of slivers would differ.
 PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t> payloads) {
   PeerMesh mesh;
-  const auto rounded = [](float px) { return std::nearbyint(px * contract::kSub) / contract::kSub; };
+  const auto rounded = [](float px) { return std::nearbyint(px * Coarse::kSub) / Coarse::kSub; };
   for (std::size_t i = 0; i < stream.triangles.size(); ++i)
     for (const glm::vec3 vertex : stream.triangles[i].vertex) {
       mesh.positions.emplace_back(rounded(vertex.x), rounded(vertex.y), vertex.z);
@@ -171,10 +172,11 @@ double float_plane_error(const ScreenTriangle& t, int width, int height) {
   const Oriented o = orient(t);
   const auto [low, high] = std::minmax({o.z[0], o.z[1], o.z[2]});
   const auto length_px = [](const std::int32_t(&v)[3]) {
-    return static_cast<double>(std::abs(v[1] - v[0]) + std::abs(v[2] - v[0])) / kSub;
+    return (static_cast<double>(std::abs(v[1] - v[0])) + std::abs(v[2] - v[0])) / kPixel_q15;
   };
   return lab::float_plane_error(static_cast<double>(high), static_cast<double>(high - low), length_px(o.x),
-                                length_px(o.y), static_cast<double>(o.area) / (kSub * kSub), width, height);
+                                length_px(o.y), static_cast<double>(o.area) / (kPixel_q15 * kPixel_q15),
+                                width, height);
 }
 
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
@@ -227,7 +229,7 @@ PortableJudgement judge_portable(const Workload& workload, std::span<const std::
   const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload));
   const auto mask = lab::portable_pixels(
       lab::portable_triangles(workload.drawable(), workload.frontend_options()), ours.width(), ours.height(),
-      {.subpixel_bits = std::min(subpixel_bits, contract::kSubBits),
+      {.subpixel_bits = std::min(subpixel_bits, Coarse::kSubBits),
        .depth = lab::find_depth_format("d32_sfloat")},
       2);
   PortableJudgement result;

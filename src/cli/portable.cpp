@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "core/grid.h"
 #include "edgewise/contract.h"
 #include "edgewise/draw.h"
 #include "files/pictures.h"
@@ -52,9 +53,9 @@ Image mask_of(const lab::PortablePixels& found) {
 int fewest_bits(const std::string& text) {
   const auto dash = text.find('-', 1);
   const int fewest = parse_number("--bits", text.substr(0, dash), 1, 16);
-  if (fewest > contract::kSubBits)
+  if (fewest > Coarse::kSubBits)
     throw std::invalid_argument(
-        fmt::format("--bits: at most {}, the subpixel bits that the library draws", contract::kSubBits));
+        fmt::format("--bits: at most {}, the subpixel bits that the library draws", Coarse::kSubBits));
   if (dash != std::string::npos) parse_number("--bits", text.substr(dash + 1), fewest, 16);
   return fewest;
 }

@@ -24,54 +24,57 @@ namespace edgewise::contract {
 __extension__ using int128 = __int128;
 
 // Rule 1, screen space. y points down, and pixel (0, 0) is top left. Each pixel has one sample, at its
-// centre: the sample of pixel p is at 256 p + 128 sub-units (of 1/256 px).
+// centre. Positions are integers in units of 2^-15 px, and names of such numbers end in _q15: the sample of
+// pixel p is at 2^15 p + 2^14.
 //
-// Rule 2, snapping. x and y are rounded half to even to 1/256 px. Facing, coverage and depth use only the
-// snapped positions.
-inline constexpr int kSubBits = 8;
-inline constexpr std::int32_t kSub = 1 << kSubBits;
-inline constexpr std::int32_t kHalf = kSub / 2;
+// Rule 2, snapping. x and y are rounded half to even to 4 … 15 fraction bits, the subpixel bits; the lower of
+// the 15 bits are 0. Facing, coverage and depth use only the snapped positions.
+inline constexpr int kFineBits = 15;
+inline constexpr std::int32_t kPixel_q15 = 1 << kFineBits;
+inline constexpr std::int32_t kHalf_q15 = kPixel_q15 / 2;
 
-constexpr std::int32_t sample_sub(std::int32_t pixel) {
-  return pixel * kSub + kHalf;
+constexpr std::int32_t sample_q15(std::int32_t pixel) {
+  return pixel * kPixel_q15 + kHalf_q15;
 }
 
-// Rule 3, guard band. |x|, |y| <= 2^22 sub-units (16384 px). The front end clips geometry beyond the band, so
-// the difference of two coordinates is at most 2^23. The largest image is the largest one whose samples all
-// lie inside the band.
-inline constexpr std::int32_t kGuardSub = 1 << 22;
-inline constexpr std::int32_t kMaxImageSide = kGuardSub / kSub;
-static_assert(kMaxImageSide == 16384 && sample_sub(kMaxImageSide - 1) < kGuardSub);
+// Rule 3, guard band. |x|, |y| <= 2^29 (16384 px). The front end clips geometry beyond the band, so the
+// difference of two coordinates is at most 2^30. The largest image is the largest one whose samples all lie
+// inside the band.
+inline constexpr std::int32_t kGuard_q15 = 1 << 29;
+inline constexpr std::int32_t kMaxImageSide = kGuard_q15 / kPixel_q15;
+static_assert(kMaxImageSide == 16384 && sample_q15(kMaxImageSide - 1) < kGuard_q15);
 
 // Rule 4, edge function and fill rule. For the edge from p to q of a triangle of positive area
 //   E(s) = a (s.x - p.x) + b (s.y - p.y),  a = p.y - q.y,  b = q.x - p.x
 // is >= 0 on the inner side. A sample exactly on an edge belongs to the triangle only if that edge is a left
 // edge (a > 0) or a top edge (a = 0, b > 0). On any other edge, a bias of -1 turns E = 0 into "outside". So
-// the inside test is E + bias >= 0 for all three edges. Bound: |a|, |b| <= 2^23 and |s - p| <= 2^23 on each
-// axis, hence |E| <= 2^47.
+// the inside test is E + bias >= 0 for all three edges. Bound: |a|, |b| <= 2^30 and |s - p| <= 2^30 on each
+// axis, hence |E| <= 2^61.
 struct Edge {
   std::int32_t a, b;
   std::int64_t c;  // bias - a p.x - b p.y
 
-  // The biased edge value at a pixel's sample, in sub-units squared.
+  // The biased edge value at a pixel's sample, in 2^-30 px^2.
   constexpr std::int64_t at(std::int32_t px, std::int32_t py) const {
-    return std::int64_t{a} * sample_sub(px) + std::int64_t{b} * sample_sub(py) + c;
+    return std::int64_t{a} * sample_q15(px) + std::int64_t{b} * sample_q15(py) + c;
   }
 };
-inline constexpr std::int64_t kMaxEdge = std::int64_t{1} << 47;
-static_assert(2 * (std::int64_t{2} * kGuardSub) * (std::int64_t{2} * kGuardSub) == kMaxEdge);
+inline constexpr std::int64_t kMaxEdge_q30 = std::int64_t{1} << 61;
+static_assert(2 * (std::int64_t{2} * kGuard_q15) * (std::int64_t{2} * kGuard_q15) == kMaxEdge_q30);
 
 constexpr bool is_top_left(std::int32_t a, std::int32_t b) {
   return a > 0 || (a == 0 && b > 0);
 }
 
-// Rule 5, tile shortcut. A step to the next sample changes E by 256 a or 256 b, and floor((E + 256 k) / 256)
-// = floor(E / 256) + k. So a backend may add the bias, shift the value right by 8 once, and then step it by a
-// and b: its sign stays that of the full value. The bias must be added before the shift. In a tile of up to
-// 64 x 64 px that the edge crosses, the shifted value stays within 64 (|a| + |b|) <= 2^30 of zero, so int32
-// lanes suffice.
+// Rule 5, tile shortcut. A step to the next sample changes E by 2^15 a or 2^15 b, and floor((E + 2^15 k) /
+// 2^15) = floor(E / 2^15) + k. So a backend may add the bias, shift the value right by 15 once, and then step
+// it by a and b: its sign stays that of the full value. The bias must be added before the shift. In a tile of
+// up to 64 x 64 px that the edge crosses, the shifted value stays within 64 (|a| + |b|) of zero, so int32
+// lanes suffice below 1024 px. Where all positions have `n` zero bits below, a backend may drop them and
+// shift by 15 - n. With 8 subpixel bits, 64 (|a| + |b|) is then at most 2^30, and int32 lanes always suffice.
 inline constexpr int kMaxTile = 64;
-static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} << 30);
+static_assert((std::int64_t{kMaxTile} * 2 * (std::int64_t{2} * kGuard_q15) >> (kFineBits - 8)) <=
+              std::int64_t{1} << 30);
 
 // Rule 6, depth. A vertex has z in [kDepthHead, kDepthHead + kDepthRange]. The front end maps depth 0 and 1
 // to the ends of this range and rounds half to even. A stream states its depths. A scene's depth follows from
@@ -111,17 +114,20 @@ constexpr double depth01(std::uint32_t depth) {
 static_assert(depth01(kDepthHead) == 0 && depth01(kDepthHead + kDepthRange) == 1 &&
               depth01(kDepthClear) == 1);
 
+// The fraction bits of a plane's value: those of a gradient, and of a position.
+inline constexpr int kPlaneBits = 16 + kFineBits;
+
 // The depth plane of a triangle (rule 6).
 struct DepthPlane {
   std::uint64_t gx, gy;  // 48.16 fixed point per pixel, wrapped
-  std::uint64_t origin;  // 2^24 (depth at pixel (0, 0) + 1/2 before it is rounded down), wrapped
+  std::uint64_t origin;  // 2^31 (depth at pixel (0, 0) + 1/2 before it is rounded down), wrapped
   std::uint32_t zx, zy;  // gx, gy rounded to whole units
 
   // Depth at a cell's first pixel. Both coordinates must be multiples of kDepthCell.
   constexpr std::uint32_t base(std::int32_t cell_px, std::int32_t cell_py) const {
-    return static_cast<std::uint32_t>((origin + gx * (static_cast<std::uint64_t>(cell_px) << kSubBits) +
-                                       gy * (static_cast<std::uint64_t>(cell_py) << kSubBits)) >>
-                                      24);
+    return static_cast<std::uint32_t>((origin + gx * (static_cast<std::uint64_t>(cell_px) << kFineBits) +
+                                       gy * (static_cast<std::uint64_t>(cell_py) << kFineBits)) >>
+                                      kPlaneBits);
   }
   // Depth at a pixel's sample.
   constexpr std::uint32_t at(std::int32_t px, std::int32_t py) const {
@@ -130,21 +136,21 @@ struct DepthPlane {
   }
 };
 
-// floor(2^24 n / area) mod 2^64, for |n| <= 2^54 and 0 < area <= 2^46. Both are twice the area of a triangle
+// floor(2^31 n / area) mod 2^64, for |n| <= 2^61 and 0 < area <= 2^60. Both are twice the area of a triangle
 // inside a box, which is at most the area of the box. While the double quotient stays below 2^51, it is
-// within one unit of the exact quotient. The remainder then corrects it exactly: its true size is a few
-// areas, so computing it modulo 2^64 loses nothing.
+// within two units of the exact quotient. The remainder then corrects it exactly: its true size is a few
+// areas, below 2^63, so computing it modulo 2^64 loses nothing.
 inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
-  const double quotient = static_cast<double>(n) * 16777216.0 / static_cast<double>(area);
+  const double quotient = static_cast<double>(n) * 0x1p31 / static_cast<double>(area);
   if (quotient > -0x1p51 && quotient < 0x1p51) {
     auto g = static_cast<std::int64_t>(quotient);
-    auto rest = static_cast<std::int64_t>((static_cast<std::uint64_t>(n) << 24) -
+    auto rest = static_cast<std::int64_t>((static_cast<std::uint64_t>(n) << kPlaneBits) -
                                           static_cast<std::uint64_t>(g) * static_cast<std::uint64_t>(area));
     for (; rest < 0; rest += area) --g;
     for (; rest >= area; rest -= area) ++g;
     return static_cast<std::uint64_t>(g);
   }
-  const int128 wide = static_cast<int128>(n) * (1 << 24);
+  const int128 wide = static_cast<int128>(n) * (std::int64_t{1} << kPlaneBits);
   int128 g = wide / area;
   if (g * area > wide) --g;
   return static_cast<std::uint64_t>(g);
@@ -160,11 +166,11 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
 // Rules 10 and 11 bound the errors of a scene's positions (camera.h) and of barycentric coordinates
 // (barycentrics.h), which floats hold.
 
-// Twice the signed area, in sub-units squared. Positive is clockwise on the y-down screen, which is the
+// Twice the signed area, in 2^-30 px^2. Positive is clockwise on the y-down screen, which is the
 // front.
 constexpr std::int64_t signed_area(const ScreenTriangle& t) {
-  return std::int64_t{t.x_sub[1] - t.x_sub[0]} * (t.y_sub[2] - t.y_sub[0]) -
-         std::int64_t{t.y_sub[1] - t.y_sub[0]} * (t.x_sub[2] - t.x_sub[0]);
+  return std::int64_t{t.x_q15[1] - t.x_q15[0]} * (t.y_q15[2] - t.y_q15[0]) -
+         std::int64_t{t.y_q15[1] - t.y_q15[0]} * (t.x_q15[2] - t.x_q15[0]);
 }
 
 // The pixels whose samples lie in a triangle's bounding box, clipped to an image: columns x0 … x1 - 1 and
@@ -176,26 +182,26 @@ struct PixelBox {
 };
 
 constexpr PixelBox pixel_box(const ScreenTriangle& t, std::int32_t width, std::int32_t height) {
-  const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
-  const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
-  // First sample at or after a coordinate: ceil((c - 128) / 256).
-  const auto first = [](std::int32_t c) { return (c + kHalf - 1) >> kSubBits; };
+  const auto [min_x, max_x] = std::minmax({t.x_q15[0], t.x_q15[1], t.x_q15[2]});
+  const auto [min_y, max_y] = std::minmax({t.y_q15[0], t.y_q15[1], t.y_q15[2]});
+  // First sample at or after a coordinate: ceil((c - 2^14) / 2^15).
+  const auto first = [](std::int32_t c) { return (c + kHalf_q15 - 1) >> kFineBits; };
   return {std::max(first(min_x), 0), std::max(first(min_y), 0), std::min(first(max_x), width),
           std::min(first(max_y), height)};
 }
 
 // A triangle whose vertices are ordered so that its area is positive.
 struct Oriented {
-  std::int32_t x[3], y[3];  // sub-units
+  std::int32_t x[3], y[3];  // 2^-15 px
   std::int64_t z[3];        // contract units
-  std::int64_t area;        // twice the area, in sub-units squared; 0: the triangle draws nothing
+  std::int64_t area;        // twice the area, in 2^-30 px^2; 0: the triangle draws nothing
 };
 
 constexpr Oriented orient(const ScreenTriangle& t) {
   const std::int64_t area = signed_area(t);
   const int second = area >= 0 ? 1 : 2, third = 3 - second;
-  return {{t.x_sub[0], t.x_sub[second], t.x_sub[third]},
-          {t.y_sub[0], t.y_sub[second], t.y_sub[third]},
+  return {{t.x_q15[0], t.x_q15[second], t.x_q15[third]},
+          {t.y_q15[0], t.y_q15[second], t.y_q15[third]},
           {t.z[0], t.z[second], t.z[third]},
           area >= 0 ? area : -area};
 }
@@ -207,11 +213,11 @@ constexpr Edge make_edge(const Oriented& t, int i) {
   return {a, b, (is_top_left(a, b) ? 0 : -1) - std::int64_t{a} * t.x[i] - std::int64_t{b} * t.y[i]};
 }
 
-// What makes a cell's base middle - 32 (zx + zy) instead of the plane at its first sample, as 2^24 units:
+// What makes a cell's base middle - 32 (zx + zy) instead of the plane at its first sample, as 2^31 units:
 // 32 (gx / 2^16 - zx) and the same for y. `fractions` is the sum of the lower 16 bits of gx + 2^15 and
 // gy + 2^15.
 constexpr std::uint64_t middle_shift(std::uint64_t fractions) {
-  return (fractions - 0x10000) * (kDepthCell / 2 * kSub);
+  return (fractions - 0x10000) * (kDepthCell / 2 * kPixel_q15);
 }
 
 // The depth plane (rule 6) of a triangle. Its area must not be zero.
@@ -226,9 +232,9 @@ inline DepthPlane make_depth(const Oriented& t) {
   int top = 0;
   for (int i = 1; i < 3; ++i)
     if (t.y[i] < t.y[top] || (t.y[i] == t.y[top] && t.x[i] < t.x[top])) top = i;
-  d.origin = (static_cast<std::uint64_t>(t.z[top]) << 24) + (std::uint64_t{1} << 23) +
-             d.gx * static_cast<std::uint64_t>(std::int64_t{kHalf} - t.x[top]) +
-             d.gy * static_cast<std::uint64_t>(std::int64_t{kHalf} - t.y[top]) +
+  d.origin = (static_cast<std::uint64_t>(t.z[top]) << kPlaneBits) + (std::uint64_t{1} << (kPlaneBits - 1)) +
+             d.gx * static_cast<std::uint64_t>(std::int64_t{kHalf_q15} - t.x[top]) +
+             d.gy * static_cast<std::uint64_t>(std::int64_t{kHalf_q15} - t.y[top]) +
              middle_shift((rounded_x & 0xFFFF) + (rounded_y & 0xFFFF));
   return d;
 }

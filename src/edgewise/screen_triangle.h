@@ -1,4 +1,4 @@
-// The triangles that the front end passes to a backend, with vertices snapped to 1/256 px.
+// The triangles that the front end passes to a backend, with snapped vertices.
 //
 // Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
 // The front of a triangle is the side whose vertices appear clockwise (camera.h).
@@ -14,12 +14,12 @@ namespace edgewise {
 
 // Either winding is allowed, and a triangle of zero area draws nothing. Backends rely on these ranges (rules
 // 3 and 6 of contract.h) and do not check them:
-//   |x_sub|, |y_sub| <= contract::kGuardSub
+//   |x_q15|, |y_q15| <= contract::kGuard_q15
 //   contract::kDepthHead <= z <= contract::kDepthHead + contract::kDepthRange
 // The front end keeps to them. If you make triangles by hand, you must keep to them too.
 struct alignas(8) ScreenTriangle {
-  std::int32_t x_sub[3];  // 1/256 px, x to the right
-  std::int32_t y_sub[3];  // 1/256 px, y down
+  std::int32_t x_q15[3];  // 2^-15 px, x to the right
+  std::int32_t y_q15[3];  // 2^-15 px, y down
   std::uint32_t z[3];     // contract depth units (rule 6); smaller is nearer
   std::uint32_t payload;  // written where the triangle is visible: a colour or an id (Payload)
 };

@@ -127,8 +127,8 @@ class Splitter {
 
   // Twice the signed area of a triangle; without arguments, that of the polygon.
   std::int64_t area(std::size_t a, std::size_t b, std::size_t c) const {
-    const auto x = [&](std::size_t i) { return std::int64_t{polygon_[i].x_sub}; };
-    const auto y = [&](std::size_t i) { return std::int64_t{polygon_[i].y_sub}; };
+    const auto x = [&](std::size_t i) { return std::int64_t{polygon_[i].x_q15}; };
+    const auto y = [&](std::size_t i) { return std::int64_t{polygon_[i].y_q15}; };
     return (x(b) - x(a)) * (y(c) - y(a)) - (y(b) - y(a)) * (x(c) - x(a));
   }
   std::int64_t area() const {

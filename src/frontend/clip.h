@@ -82,7 +82,7 @@ class Clipper {
 // A transformed vertex: projected and snapped, with the sides of the view that it lies beyond. It has 16
 // bytes, so triangle assembly loads it with one instruction.
 struct Vertex {
-  std::int32_t x_sub, y_sub;  // sub-units; x_sub, y_sub and z are valid only if the vertex needs no clipping
+  std::int32_t x_q15, y_q15;  // 2^-15 px; x_q15, y_q15 and z are valid only if the vertex needs no clipping
   std::uint32_t z;            // contract units
   std::uint32_t outside;      // flags of Outside
 };
@@ -100,7 +100,7 @@ inline bool can_project(const ClipVertex& v) {
   return v.w > 0.0 && std::isfinite(x_px(v)) && std::isfinite(y_px(v));
 }
 
-// True if x_sub, y_sub and z are valid.
+// True if x_q15, y_q15 and z are valid.
 inline bool is_inside(const Vertex& v) {
   return (v.outside & (kMustClip | kNotFinite)) == 0;
 }
@@ -118,7 +118,7 @@ struct Pieces {
 // another clipped edge. A fan may then contain a thin piece of the other winding. Its samples would be drawn
 // twice. And culling, which tests each piece, would keep this piece of a triangle that faces the wrong way.
 //
-// Two edges within a few 1/256 px of each other may cross after snapping. Then no such split exists, and the
+// Two edges within a few sub-units of each other may cross after snapping. Then no such split exists, and the
 // result is the fan: it loses no sample, but may draw some twice.
 Pieces split(std::span<const Vertex> polygon);
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "core/grid.h"
 #include "edgewise/contract.h"
 
 namespace edgewise {
@@ -19,10 +20,11 @@ inline std::int32_t round_half_even(float v) {
   return std::bit_cast<std::int32_t>(v + kRoundFloat) - std::bit_cast<std::int32_t>(kRoundFloat);
 }
 
-// Pixels → sub-units, clamped to the guard band: rounding may put a clipped vertex slightly beyond it.
+// Pixels → 2^-15 px with 8 subpixel bits, clamped to the guard band: rounding may put a clipped vertex
+// slightly beyond it.
 inline std::int32_t snap(float px) {
-  constexpr float kLimit = static_cast<float>(contract::kGuardSub);
-  return round_half_even(std::clamp(px * static_cast<float>(contract::kSub), -kLimit, kLimit));
+  constexpr float kLimit = Coarse::kGuardSub;
+  return round_half_even(std::clamp(px * Coarse::kSub, -kLimit, kLimit)) * (1 << Coarse::kSpareBits);
 }
 
 // Units above depth 0, clamped to the range → contract units, half to even. The sum lies between 2^52 and

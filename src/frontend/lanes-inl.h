@@ -8,6 +8,7 @@
 #define EDGEWISE_FRONTEND_LANES_INL_H
 #endif
 
+#include "core/grid.h"
 #include "core/lanes-inl.h"
 #include "frontend/fixed.h"
 #include "frontend/tasks.h"
@@ -40,11 +41,11 @@ HWY_INLINE hn::Vec<Tag> in_double(Tag d, F&& f, Vectors... v) {
 
 HWY_INLINE V snap(VF px) {
   const DF d;
-  const VF limit = hn::Set(d, static_cast<float>(contract::kGuardSub));
-  const VF sub = hn::Mul(px, hn::Set(d, static_cast<float>(contract::kSub)));
+  const VF limit = hn::Set(d, static_cast<float>(Coarse::kGuardSub));
+  const VF sub = hn::Mul(px, hn::Set(d, static_cast<float>(Coarse::kSub)));
   const VF magic = hn::Set(d, kRoundFloat);
   const VF rounded = hn::Add(hn::Min(hn::Max(sub, hn::Neg(limit)), limit), magic);
-  return hn::Sub(hn::BitCast(D{}, rounded), hn::BitCast(D{}, magic));
+  return hn::ShiftLeft<Coarse::kSpareBits>(hn::Sub(hn::BitCast(D{}, rounded), hn::BitCast(D{}, magic)));
 }
 
 // units(v…) in double, rounded half to even, above the head-room.
@@ -76,7 +77,8 @@ HWY_INLINE V view_depth(const ViewDepth& depth, VF w) {
   return round_depth(units, w);
 }
 
-// The sign of the area: -1, 0 or 1. Exact in double: a product of two differences has at most 46 bits.
+// The sign of the area: -1, 0 or 1. Exact in double: with 8 subpixel bits, a product of two differences has
+// at most 46 bits that may not be 0.
 HWY_INLINE V area_sign(const TriangleLanes& t) {
   const auto sign = [](auto dx1, auto dy1, auto dx2, auto dy2) HWY_ATTR {
     const hn::DFromV<decltype(dx1)> d;

@@ -33,7 +33,7 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
   FrontendStats& stats = out.stats;
   ++stats.pieces;
   const ScreenTriangle t{
-      {a.x_sub, b.x_sub, c.x_sub}, {a.y_sub, b.y_sub, c.y_sub}, {a.z, b.z, c.z}, source.payload};
+      {a.x_q15, b.x_q15, c.x_q15}, {a.y_q15, b.y_q15, c.y_q15}, {a.z, b.z, c.z}, source.payload};
   const std::int64_t area = contract::signed_area(t);
   if (area == 0 && !options.keep_unsnapped) {
     ++stats.zero_area;

@@ -83,14 +83,16 @@ struct FrameBatch {
   }
 
   // Stores a vector of triangles as entries k … Returns the bits of those that are drawn.
-  HWY_INLINE std::uint32_t store_vector(const TriangleLanes64& t, const BoxLanes& in_area, const Area& area,
-                                        const ScreenTriangle* triangles, const std::uint32_t* indices,
-                                        int k) {
+  template <class G>
+  HWY_INLINE std::uint32_t store_vector(const TriangleLanes64<G>& t, const BoxLanes& in_area,
+                                        const Area& area, const ScreenTriangle* triangles,
+                                        const std::uint32_t* indices, int k) {
     const D64 d;
-    const DepthLanes depth = depth_lanes(t, area, 0, 0);
+    const DepthLanes<G> depth = depth_lanes(t, area, 0, 0);
     store(in_area.x0, x0 + k), store(in_area.y0, y0 + k);
     store(in_area.x1, x1 + k), store(in_area.y1, y1 + k);
-    hn::StoreU(depth.gx, d, gx + k), hn::StoreU(depth.gy, d, gy + k), hn::StoreU(depth.start, d, origin + k);
+    hn::StoreU(depth.gx, d, gx + k), hn::StoreU(depth.gy, d, gy + k),
+        hn::StoreU(hn::ShiftLeft<G::kSpareBits>(depth.start), d, origin + k);
     store(depth.x, zx + k), store(depth.y, zy + k);
     const std::uint32_t drawn = may_cover(in_area, area);
     for (std::uint32_t left = drawn & ~mask_bits(depth.exact); left != 0; left &= left - 1) {

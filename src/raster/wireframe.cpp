@@ -1,10 +1,10 @@
 // Draws the edges of triangles only, one pixel wide, by an exact integer rule.
 //
 // The major axis u of an edge is the axis of its larger extent (x if both are equal); v is the other axis. In
-// sub-units (rules 1 and 2), with u0 <= u1 and du = u1 - u0, it draws
-//   - in each pixel row or column whose sample s lies in [u0, u1) the pixel floor(v(s) / 256), where
+// 2^-15 px (rules 1 and 2), with u0 <= u1 and du = u1 - u0, it draws
+//   - in each pixel row or column whose sample s lies in [u0, u1) the pixel floor(v(s) / 2^15), where
 //     v(s) = v0 + (v1 - v0) (s - u0) / du, at the depth floor(z0 + (z1 - z0) (s - u0) / du + 1/2);
-//   - the pixels that contain its two ends, floor(u / 256) and floor(v / 256), at their depths.
+//   - the pixels that contain its two ends, floor(u / 2^15) and floor(v / 2^15), at their depths.
 // Depth test, ties and payload follow the contract (rules 7 and 8). A triangle without area draws nothing.
 //
 // The rule does not depend on which end comes first, so neighbours draw their shared edge in the same pixels
@@ -16,7 +16,7 @@
 // + |y| < 1/2 around its sample, so never the pixel that the line ends in. That suits line strips but depends
 // on the direction, and triangles traverse a shared edge in opposite directions.
 //
-// Widths: v0 du and dv (s - u0) are at most 2^46 each, and twice z du is at most 2^55, so int64 suffices.
+// Widths: v0 du and dv (s - u0) are at most 2^60 each, and twice z du is at most 2^62, so int64 suffices.
 // Quotients are stepped exactly, with their remainders, so a drawing that starts inside the edge has the same
 // pixels. Doubles find which pixels outside the frame or band to skip; half a pixel is left for rounding.
 //
@@ -37,12 +37,12 @@ using namespace contract;
 
 namespace {
 
-constexpr std::int32_t pixel_of(std::int32_t sub) {
-  return sub >> kSubBits;
+constexpr std::int32_t pixel_of(std::int32_t q15) {
+  return q15 >> kFineBits;
 }
 // The first pixel whose sample lies at or after a coordinate.
-constexpr std::int32_t first_sample(std::int32_t sub) {
-  return (sub + kHalf - 1) >> kSubBits;
+constexpr std::int32_t first_sample(std::int32_t q15) {
+  return (q15 + kHalf_q15 - 1) >> kFineBits;
 }
 
 // floor(n / d), stepped as n grows by a constant. d > 0.
@@ -74,12 +74,12 @@ class Edges {
       : frame_(part.frame), columns_{part.x0, part.frame.width}, rows_(rows) {}
 
   void draw(const ScreenTriangle& t) const {
-    const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
+    const auto [min_y, max_y] = std::minmax({t.y_q15[0], t.y_q15[1], t.y_q15[2]});
     if (pixel_of(max_y) < rows_.begin || pixel_of(min_y) >= rows_.end) return;
-    const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
+    const auto [min_x, max_x] = std::minmax({t.x_q15[0], t.x_q15[1], t.x_q15[2]});
     if (pixel_of(max_x) < columns_.begin || pixel_of(min_x) >= columns_.end || signed_area(t) == 0) return;
     for (int i = 0; i < 3; ++i) {
-      test_and_write(pixel_of(t.x_sub[i]), pixel_of(t.y_sub[i]), t.z[i], t.payload);
+      test_and_write(pixel_of(t.x_q15[i]), pixel_of(t.y_q15[i]), t.z[i], t.payload);
       draw_between(t, i, i == 2 ? 0 : i + 1);
     }
   }
@@ -95,8 +95,8 @@ class Edges {
   }
 
   void draw_between(const ScreenTriangle& t, int i, int j) const {
-    const bool along_x = std::abs(t.x_sub[j] - t.x_sub[i]) >= std::abs(t.y_sub[j] - t.y_sub[i]);
-    const std::int32_t *const us = along_x ? t.x_sub : t.y_sub, *const vs = along_x ? t.y_sub : t.x_sub;
+    const bool along_x = std::abs(t.x_q15[j] - t.x_q15[i]) >= std::abs(t.y_q15[j] - t.y_q15[i]);
+    const std::int32_t *const us = along_x ? t.x_q15 : t.y_q15, *const vs = along_x ? t.y_q15 : t.x_q15;
     if (us[i] > us[j]) std::swap(i, j);
     const Interval along = along_x ? columns_ : rows_, across = along_x ? rows_ : columns_;
     int begin = std::max(first_sample(us[i]), along.begin), end = std::min(first_sample(us[j]), along.end);
@@ -106,15 +106,15 @@ class Edges {
         pixel_of(low) < across.begin || pixel_of(high) >= across.end) {
       if (dv == 0) return;
       const double step = static_cast<double>(du) / static_cast<double>(dv);
-      const auto u_at = [&](int v) { return (us[i] + (v * kSub - vs[i]) * step) / kSub; };
+      const auto u_at = [&](int v) { return (us[i] + (v * kPixel_q15 - vs[i]) * step) / kPixel_q15; };
       const auto [first, last] = std::minmax({u_at(across.begin), u_at(across.end)});
       const int least = begin;
       begin = static_cast<int>(std::clamp<double>(first - 1, least, end));
       end = static_cast<int>(std::clamp<double>(last + 1, least, end));
     }
-    const std::int64_t done = sample_sub(begin) - us[i];
-    Quotient v(vs[i] * du + dv * done, du * kSub, dv * kSub);
-    Quotient z(2 * (t.z[i] * du + dz * done) + du, 2 * du, 2 * dz * kSub);
+    const std::int64_t done = sample_q15(begin) - us[i];
+    Quotient v(vs[i] * du + dv * done, du * kPixel_q15, dv * kPixel_q15);
+    Quotient z(2 * (t.z[i] * du + dz * done) + du, 2 * du, 2 * dz * kPixel_q15);
     for (int u = begin; u < end; ++u, v.advance(), z.advance())
       test_and_write(along_x ? u : v.value(), along_x ? v.value() : u, z.value(), t.payload);
   }

@@ -64,13 +64,14 @@ Image around(const Image& image, int left, int right, Pixel focus, int reach) {
 
 std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel) {
   std::vector<TriangleOfPixel> found;
-  const int x0 = pixel.x * contract::kSub, y0 = pixel.y * contract::kSub;
+  const int x0 = pixel.x * contract::kPixel_q15, y0 = pixel.y * contract::kPixel_q15;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const ScreenTriangle& t = triangles[i];
-    const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
-    const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
+    const auto [min_x, max_x] = std::minmax({t.x_q15[0], t.x_q15[1], t.x_q15[2]});
+    const auto [min_y, max_y] = std::minmax({t.y_q15[0], t.y_q15[1], t.y_q15[2]});
     const contract::Oriented o = contract::orient(t);
-    if (max_x < x0 || max_y < y0 || min_x > x0 + contract::kSub || min_y > y0 + contract::kSub || o.area == 0)
+    if (max_x < x0 || max_y < y0 || min_x > x0 + contract::kPixel_q15 || min_y > y0 + contract::kPixel_q15 ||
+        o.area == 0)
       continue;
     TriangleOfPixel of{i, t.payload, {}, contract::depth01(contract::make_depth(o).at(pixel.x, pixel.y))};
     bool reaches = true;
@@ -79,7 +80,7 @@ std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triang
       const std::int64_t value = edge.at(pixel.x, pixel.y);
       // The most that the value grows between the sample and a corner of the pixel.
       const std::int64_t growth =
-          std::int64_t{contract::kHalf} * (std::int64_t{std::abs(edge.a)} + std::abs(edge.b));
+          std::int64_t{contract::kHalf_q15} * (std::int64_t{std::abs(edge.a)} + std::abs(edge.b));
       reaches = reaches && value + growth > 0;
       of.edges[static_cast<std::size_t>(k)] = value;
     }

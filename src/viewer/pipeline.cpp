@@ -40,12 +40,12 @@ class Recorder final : public Backend {
   }
 };
 
-// Exact: 1/256 is a power of two, and coordinates have at most 24 bits.
+// Exact with 8 subpixel bits: coordinates have at most 24 bits that may not be 0.
 lab::FloatTriangle as_floats(const ScreenTriangle& t) {
   lab::FloatTriangle floats{{}, t.payload};
   for (int i = 0; i < 3; ++i) {
-    floats.at.x_px[i] = static_cast<float>(t.x_sub[i]) / contract::kSub;
-    floats.at.y_px[i] = static_cast<float>(t.y_sub[i]) / contract::kSub;
+    floats.at.x_px[i] = static_cast<float>(t.x_q15[i]) / contract::kPixel_q15;
+    floats.at.y_px[i] = static_cast<float>(t.y_q15[i]) / contract::kPixel_q15;
     floats.at.z01[i] = static_cast<float>(contract::depth01(t.z[i]));
   }
   return floats;

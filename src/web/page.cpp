@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/grid.h"
 #include "edgewise/backend.h"
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
@@ -181,7 +182,7 @@ EXPORT(needs) const char* needs() {
   Ranges ranges;
   ranges.add(frame);
   std::vector<Question> questions = coverage.questions();
-  questions.push_back(ranges.edge_values(contract::kSubBits));
+  questions.push_back(ranges.edge_values(Coarse::kSubBits));
   return lines(
       questions, [](const Question& q) { return q.name; },
       [](const Question& q) { return q.needed() == nullptr ? "none is enough" : q.needed()->name; }, why);

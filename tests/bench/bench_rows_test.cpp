@@ -440,7 +440,8 @@ TEST(BenchProgram, PausesAreMadeButNotTimed) {
 
 // The right angle lies in the image's upper left corner.
 ScreenTriangle right_triangle(int legs_px, std::uint32_t z) {
-  return {{0, legs_px * 256, 0}, {0, 0, legs_px * 256}, {z, z, z}, 0};
+  const std::int32_t legs = legs_px * contract::kPixel_q15;
+  return {{0, legs, 0}, {0, 0, legs}, {z, z, z}, 0};
 }
 
 TEST(CostModel, CountsABlockOncePerTriangleThatWinsAPixel) {

@@ -25,11 +25,11 @@
 namespace edgewise::bench {
 namespace {
 
-using contract::kSub;
+using contract::kPixel_q15;
 using lab::benchmark_peers, lab::peers, lab::start_peers, lab::StartedPeers, lab::use_context;
 
 ScreenTriangle half_square(std::uint32_t z, std::uint32_t id) {
-  return {{0, 64 * kSub, 0}, {0, 0, 64 * kSub}, {z, z, z}, id};
+  return {{0, 64 * kPixel_q15, 0}, {0, 0, 64 * kPixel_q15}, {z, z, z}, id};
 }
 
 struct Pictures {
@@ -70,7 +70,7 @@ TEST(PeerJudge, AcceptsDepthTiesOnlyWithinTolerance) {
 
 TEST(PeerJudge, RejectsATriangleThatMissesThePixel) {
   ScreenTriangle elsewhere = half_square(1'000'000, 1);
-  for (auto& x : elsewhere.x_sub) x += 40 * kSub;
+  for (auto& x : elsewhere.x_q15) x += 40 * kPixel_q15;
   Pictures pictures({half_square(1'000'000, 0), elsewhere});
   pictures.theirs[3] = 1;
   EXPECT_EQ(pictures.judged().other_triangles, 1u);
@@ -120,6 +120,7 @@ TEST(PeerScene, RoundsAStreamsPositionsAsTheFrontEndDoes) {
   ASSERT_EQ(made.meshes.size(), 1u);
   const auto& positions = made.meshes[0].positions;
   const auto rounded = [](glm::vec3 v) {
+    constexpr auto kSub = static_cast<float>(Coarse::kSub);
     return glm::vec3(std::nearbyint(v.x * kSub) / kSub, std::nearbyint(v.y * kSub) / kSub, v.z);
   };
   const auto& given = std::get<TriangleStream>(workload->drawable()).triangles;
@@ -144,12 +145,12 @@ class Mirror final : public PeerFrame {
     for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
       ScreenTriangle t{{}, {}, {}, mesh.payloads[i + 2]};
       for (std::size_t k = 0; k < 3; ++k) {
-        t.x_sub[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].x * kSub));
-        t.y_sub[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].y * kSub));
+        t.x_q15[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].x * kPixel_q15));
+        t.y_q15[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].y * kPixel_q15));
         t.z[k] = static_cast<std::uint32_t>(double{mesh.positions[i + k].z} * contract::kDepthRange) +
                  contract::kDepthHead;
       }
-      if (is_wrong_) std::rotate(t.z, t.z + 1, t.z + 3), t.x_sub[0] += kSub;
+      if (is_wrong_) std::rotate(t.z, t.z + 1, t.z + 3), t.x_q15[0] += kPixel_q15;
       triangles.push_back(t);
     }
     backends().back().make()->draw(triangles, frame_.view(), {scene_.background});
@@ -229,7 +230,8 @@ std::shared_ptr<Workload> hard_workload(const std::string& family, std::uint64_t
   for (const ScreenTriangle& t : testing::adversarial(family, 400, stream.width, stream.height, seed)) {
     StreamTriangle out{{}, t.payload};
     for (int k = 0; k < 3; ++k)
-      out.vertex[k] = {static_cast<float>(t.x_sub[k]) / kSub, static_cast<float>(t.y_sub[k]) / kSub,
+      out.vertex[k] = {static_cast<float>(t.x_q15[k]) / kPixel_q15,
+                       static_cast<float>(t.y_q15[k]) / kPixel_q15,
                        static_cast<float>(t.z[k]) / static_cast<float>(contract::kDepthClear)};
     stream.triangles.push_back(out);
   }

@@ -77,8 +77,8 @@ TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
     ASSERT_EQ(c.triangles.empty(), c.drawable.has_value());
     for (const ScreenTriangle& t : c.triangles) {
       for (int i = 0; i < 3; ++i) {
-        ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
-        ASSERT_LE(std::abs(t.y_sub[i]), contract::kGuardSub);
+        ASSERT_LE(std::abs(t.x_q15[i]), contract::kGuard_q15);
+        ASSERT_LE(std::abs(t.y_q15[i]), contract::kGuard_q15);
         ASSERT_GE(t.z[i], contract::kDepthHead);
         ASSERT_LE(t.z[i], contract::kDepthHead + contract::kDepthRange);
       }
@@ -127,9 +127,9 @@ TEST(RandomCases, KeepTheGuardBandAtEverySize) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
       const int width = seed % 2 == 0 ? contract::kMaxImageSide : 1 + static_cast<int>(seed);
       for (const ScreenTriangle& t : lab::adversarial(family, 300, width, contract::kMaxImageSide, seed))
-        for (const auto* coordinates : {t.x_sub, t.y_sub})
+        for (const auto* coordinates : {t.x_q15, t.y_q15})
           for (int i = 0; i < 3; ++i)
-            ASSERT_LE(std::abs(coordinates[i]), contract::kGuardSub) << family << ", seed " << seed;
+            ASSERT_LE(std::abs(coordinates[i]), contract::kGuard_q15) << family << ", seed " << seed;
     }
 }
 
@@ -197,7 +197,7 @@ class WrongReference : public Backend {
                     const Execution& execution) override {
     std::vector<ScreenTriangle> moved(triangles.begin(), triangles.end());
     for (ScreenTriangle& t : moved)
-      for (std::int32_t& x : t.x_sub) x = std::max(x - 1, -contract::kGuardSub);
+      for (std::int32_t& x : t.x_q15) x = std::max(x - 128, -contract::kGuard_q15);
     right_->draw(moved, part.frame, testing::pass_of(part), execution);
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();

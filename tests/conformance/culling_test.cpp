@@ -69,8 +69,9 @@ TEST_F(ConformanceCulling, MeshesKeepTheFacesThatTheModeSelects) {
       for (const Cull cull : cull_modes()) {
         std::vector<std::uint32_t> expected, ids;
         for (const ScreenTriangle& t : all) {
-          const std::array positions{SubPosition{t.x_sub[0], t.y_sub[0]}, SubPosition{t.x_sub[1], t.y_sub[1]},
-                                     SubPosition{t.x_sub[2], t.y_sub[2]}};
+          const std::array positions{SubPosition{t.x_q15[0] / 128, t.y_q15[0] / 128},
+                                     SubPosition{t.x_q15[1] / 128, t.y_q15[1] / 128},
+                                     SubPosition{t.x_q15[2] / 128, t.y_q15[2] / 128}};
           if (is_kept(cull, area(positions))) expected.push_back(t.payload);
         }
         for (const ScreenTriangle& t : pipeline.triangles(scene, {.cull = cull})) ids.push_back(t.payload);

@@ -96,7 +96,7 @@ std::vector<ScreenTriangle> one_by_one(const Drawable& drawable, FrontendOptions
 void expect_within_the_contract(std::span<const ScreenTriangle> triangles) {
   for (const ScreenTriangle& t : triangles)
     for (int k = 0; k < 3; ++k) {
-      ASSERT_LE(std::max(std::abs(t.x_sub[k]), std::abs(t.y_sub[k])), contract::kGuardSub);
+      ASSERT_LE(std::max(std::abs(t.x_q15[k]), std::abs(t.y_q15[k])), contract::kGuard_q15);
       ASSERT_GE(t.z[k], contract::kDepthHead);
       ASSERT_LE(t.z[k], contract::kDepthHead + contract::kDepthRange);
     }

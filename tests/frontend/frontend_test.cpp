@@ -59,7 +59,7 @@ void expect_consistent(const FrontendStats& s) {
 
 TEST(Snap, RoundsHalfToEvenAndClampsToTheGuardBand) {
   const auto expected = [](float px) {
-    return static_cast<std::int32_t>(std::nearbyint(std::clamp(double{px}, -16384.0, 16384.0) * 256.0));
+    return static_cast<std::int32_t>(std::nearbyint(std::clamp(double{px}, -16384.0, 16384.0) * 256.0)) * 128;
   };
   for (const float px : {0.5f / 256, 1.5f / 256, 2.5f / 256, -0.5f / 256, -1.5f / 256, 1e30f, -1e30f})
     EXPECT_EQ(snap(px), expected(px));
@@ -97,7 +97,8 @@ TEST(Frontend, ClipsAtTheNearPlaneBeforeProjection) {
   EXPECT_EQ(result.stats.clipped_near, 1u);
   EXPECT_EQ(result.stats.emitted, 2u) << "one vertex is cut off, which leaves a quad";
   for (const auto& t : result.triangles)
-    for (int i = 0; i < 3; ++i) EXPECT_GE(t.y_sub[i], 50 * 256) << "the floor stays below the horizon";
+    for (int i = 0; i < 3; ++i)
+      EXPECT_GE(t.y_q15[i], 50 * contract::kPixel_q15) << "the floor stays below the horizon";
   expect_consistent(result.stats);
   EXPECT_EQ(run(loose({{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}})).stats.emitted, 0u) << "wholly behind";
 }
@@ -170,7 +171,7 @@ TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
   ASSERT_EQ(result.triangles.size(), 2u);
   EXPECT_EQ(result.triangles[0].payload, 0u);
   EXPECT_EQ(result.triangles[1].payload, 2u);
-  EXPECT_LT(result.triangles[0].x_sub[0], result.triangles[1].x_sub[0]) << "instances keep their order";
+  EXPECT_LT(result.triangles[0].x_q15[0], result.triangles[1].x_q15[0]) << "instances keep their order";
   for (const auto& piece : run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}), options).triangles)
     EXPECT_EQ(piece.payload, 0u);
 }
@@ -280,8 +281,8 @@ TEST(Frontend, UnsnappedTrianglesRoundToTheSnappedOnes) {
     EXPECT_EQ(frontend.stats().zero_area, 0u) << "triangles without area are kept";
     for (std::size_t i = 0; i < triangles.size(); ++i)
       for (int k = 0; k < 3; ++k) {
-        ASSERT_EQ(snap(unsnapped[i].x_px[k]), triangles[i].x_sub[k]);
-        ASSERT_EQ(snap(unsnapped[i].y_px[k]), triangles[i].y_sub[k]);
+        ASSERT_EQ(snap(unsnapped[i].x_px[k]), triangles[i].x_q15[k]);
+        ASSERT_EQ(snap(unsnapped[i].y_px[k]), triangles[i].y_q15[k]);
         if (std::holds_alternative<TriangleStream>(drawable))
           ASSERT_EQ(quantize_depth(unsnapped[i].z01[k]), triangles[i].z[k]);
         else  // z01 is the less accurate quotient z / w
@@ -322,8 +323,8 @@ Polygon polygon_of(std::initializer_list<std::pair<int, int>> positions) {
 }
 
 std::int64_t area(const Vertex& a, const Vertex& b, const Vertex& c) {
-  return std::int64_t{b.x_sub - a.x_sub} * (c.y_sub - a.y_sub) -
-         std::int64_t{b.y_sub - a.y_sub} * (c.x_sub - a.x_sub);
+  return std::int64_t{b.x_q15 - a.x_q15} * (c.y_q15 - a.y_q15) -
+         std::int64_t{b.y_q15 - a.y_q15} * (c.x_q15 - a.x_q15);
 }
 
 // Of a polygon; a fan has the same sum, whatever the signs of its triangles.

@@ -173,8 +173,8 @@ void expect_nearly_same(const Drawable& a, const Drawable& b, const std::string&
   for (std::size_t i = 0; i < one.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const ScreenTriangle &s = one.triangles[i], &t = other.triangles[i];
-      ASSERT_NEAR(s.x_sub[k], t.x_sub[k], sub_units) << what << ", triangle " << i;
-      ASSERT_NEAR(s.y_sub[k], t.y_sub[k], sub_units) << what << ", triangle " << i;
+      ASSERT_NEAR(s.x_q15[k], t.x_q15[k], sub_units << Coarse::kSpareBits) << what << ", triangle " << i;
+      ASSERT_NEAR(s.y_q15[k], t.y_q15[k], sub_units << Coarse::kSpareBits) << what << ", triangle " << i;
       ASSERT_NEAR(s.z[k], t.z[k], depth_units) << what << ", triangle " << i;
       for (int channel = 0; channel < 32; channel += 8)
         ASSERT_NEAR(s.payload >> channel & 255, t.payload >> channel & 255, 1) << what << ", triangle " << i;
@@ -291,7 +291,7 @@ TEST(Matrices, PlanesClipWhereZIsZeroOrW) {
     double least = 1e9, most = 0;
     for (const ScreenTriangle& t : shown.triangles)
       for (int k = 0; k < 3; ++k) {
-        const double px = t.x_sub[k] / 256.0;
+        const double px = t.x_q15[k] / double{contract::kPixel_q15};
         least = std::min(least, px), most = std::max(most, px);
         EXPECT_NEAR(contract::depth01(t.z[k]), c.depth_at_100_px + (px - 100) * c.depth_per_px, 1e-6);
       }

@@ -153,7 +153,7 @@ TEST(Positions, ClippedTrianglesKeepTheCornersTheyShare) {
       ASSERT_TRUE(std::any_of(triangles.begin() + 1, triangles.end(),
                               [&](const ScreenTriangle& t) {
                                 const auto has = [&](int i) {
-                                  return t.x_sub[i] == whole.x_sub[k] && t.y_sub[i] == whole.y_sub[k] &&
+                                  return t.x_q15[i] == whole.x_q15[k] && t.y_q15[i] == whole.y_q15[k] &&
                                          t.z[i] == whole.z[k];
                                 };
                                 return has(0) || has(1) || has(2);
@@ -203,7 +203,8 @@ TEST(Positions, FitAndFrameCameraKeepWhatIsFarFromTheOrigin) {
     std::size_t moved = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
       for (int k = 0; k < 3; ++k)
-        moved += std::abs(a[i].x_sub[k] - b[i].x_sub[k]) > 1 || std::abs(a[i].y_sub[k] - b[i].y_sub[k]) > 1;
+        moved +=
+            std::abs(a[i].x_q15[k] - b[i].x_q15[k]) > 128 || std::abs(a[i].y_q15[k] - b[i].y_q15[k]) > 128;
     EXPECT_EQ(moved, 0u) << fitted;
   }
 }
@@ -230,8 +231,8 @@ TEST(Positions, FrameCameraShowsAllOfAScene) {
       Frontend frontend;
       for (const ScreenTriangle& t : frontend.run(scene, {.width = width, .height = 400, .cull = Cull::none}))
         for (int k = 0; k < 3; ++k) {
-          EXPECT_TRUE(t.x_sub[k] >= 0 && t.x_sub[k] <= width * contract::kSub) << aspect;
-          EXPECT_TRUE(t.y_sub[k] >= 0 && t.y_sub[k] <= 400 * contract::kSub) << aspect;
+          EXPECT_TRUE(t.x_q15[k] >= 0 && t.x_q15[k] <= width * contract::kPixel_q15) << aspect;
+          EXPECT_TRUE(t.y_q15[k] >= 0 && t.y_q15[k] <= 400 * contract::kPixel_q15) << aspect;
         }
       EXPECT_LT(bounds_of(scene).high.x, 10);
       EXPECT_EQ(frontend.stats().emitted, frontend.stats().triangles);

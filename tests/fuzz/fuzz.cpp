@@ -120,9 +120,9 @@ void check_ranges(std::span<const ScreenTriangle> triangles) {
   for (const ScreenTriangle& t : triangles)
     for (int i = 0; i < 3; ++i) {
       const auto in_band = [](std::int32_t c) {
-        return c >= -contract::kGuardSub && c <= contract::kGuardSub;
+        return c >= -contract::kGuard_q15 && c <= contract::kGuard_q15;
       };
-      require(in_band(t.x_sub[i]) && in_band(t.y_sub[i]), "the front end left the guard band");
+      require(in_band(t.x_q15[i]) && in_band(t.y_q15[i]), "the front end left the guard band");
       require(t.z[i] >= contract::kDepthHead && t.z[i] <= contract::kDepthHead + contract::kDepthRange,
               "the front end left the depth range");
     }

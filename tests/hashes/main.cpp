@@ -166,7 +166,7 @@ std::string triangle_at(std::span<const ScreenTriangle> triangles, std::uint32_t
     if (oriented.area == 0 || contract::make_depth(oriented).at(x, y) != depth) continue;
     std::string text = "triangle " + std::to_string(id) + ":";
     for (int i = 0; i < 3; ++i)
-      text += " (" + std::to_string(t.x_sub[i]) + ", " + std::to_string(t.y_sub[i]) + ", " +
+      text += " (" + std::to_string(t.x_q15[i]) + ", " + std::to_string(t.y_q15[i]) + ", " +
               std::to_string(t.z[i]) + ")";
     return text + " in 1/256 px and units of depth";
   }

@@ -107,8 +107,9 @@ TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
 
 TEST(DisjointGroups, AreAsFewAsTheDeepestOverlapOfBoxes) {
   const auto square_at = [](int x) {
-    using contract::kSub;
-    return ScreenTriangle{{x * kSub, (x + 8) * kSub, x * kSub}, {0, 0, 8 * kSub}, {1, 1, 1}, 0};
+    using contract::kPixel_q15;
+    return ScreenTriangle{
+        {x * kPixel_q15, (x + 8) * kPixel_q15, x * kPixel_q15}, {0, 0, 8 * kPixel_q15}, {1, 1, 1}, 0};
   };
   std::vector<ScreenTriangle> triangles(200, square_at(0));
   for (int i = 1; i < 200; ++i) triangles.push_back(square_at(9 * i));

@@ -79,8 +79,8 @@ inline std::vector<lab::FloatTriangle> as_floats(std::span<const ScreenTriangle>
   std::vector<lab::FloatTriangle> floats(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
-      floats[i].at.x_px[k] = static_cast<float>(triangles[i].x_sub[k]) / 256.0f;
-      floats[i].at.y_px[k] = static_cast<float>(triangles[i].y_sub[k]) / 256.0f;
+      floats[i].at.x_px[k] = static_cast<float>(triangles[i].x_q15[k]) / contract::kPixel_q15;
+      floats[i].at.y_px[k] = static_cast<float>(triangles[i].y_q15[k]) / contract::kPixel_q15;
       floats[i].at.z01[k] = static_cast<float>(triangles[i].z[k] - contract::kDepthHead) /
                             static_cast<float>(contract::kDepthRange);
     }

@@ -31,14 +31,15 @@ std::vector<ScreenTriangle> exact_for(EngineArithmetic numbers, std::vector<Scre
   if (numbers == EngineArithmetic::float32 || numbers == EngineArithmetic::float32_rebased)
     for (ScreenTriangle& t : triangles)
       for (int i = 0; i < 3; ++i)
-        for (std::int32_t* v : {&t.x_sub[i], &t.y_sub[i]})
-          *v = std::clamp(*v, -256 * contract::kSub, 256 * contract::kSub) / 64 * 64;
+        for (std::int32_t* v : {&t.x_q15[i], &t.y_q15[i]})
+          *v = std::clamp(*v, -256 * contract::kPixel_q15, 256 * contract::kPixel_q15) / (64 * 128) *
+               (64 * 128);
   if (numbers == EngineArithmetic::int32)
     std::erase_if(triangles, [&](const ScreenTriangle& t) {
       const auto side = [](const std::int32_t(&v)[3]) {
         return std::max({v[0], v[1], v[2]}) - std::min({v[0], v[1], v[2]});
       };
-      return std::max(side(t.x_sub), side(t.y_sub)) > 178 * contract::kSub;
+      return std::max(side(t.x_q15), side(t.y_q15)) > 178 * contract::kPixel_q15;
     });
   return triangles;
 }
@@ -86,10 +87,10 @@ TEST(Engine, KeepsToTheBlocksOfEachTrianglesBox) {
         const ScreenTriangle& t = grid[run.triangle];
         const auto blocks = [](const std::int32_t(&v)[3]) {
           const auto [low, high] = std::minmax({v[0], v[1], v[2]});
-          return std::pair(low / contract::kSub / 4 * 4, high / contract::kSub / 4 * 4 + 4);
+          return std::pair(low / contract::kPixel_q15 / 4 * 4, high / contract::kPixel_q15 / 4 * 4 + 4);
         };
-        const auto [x0, x1] = blocks(t.x_sub);
-        const auto [y0, y1] = blocks(t.y_sub);
+        const auto [x0, x1] = blocks(t.x_q15);
+        const auto [y0, y1] = blocks(t.y_q15);
         ASSERT_TRUE(run.x0 >= x0 && run.x1 <= x1 && run.y >= y0 && run.y < y1)
             << method.info.name << " " << family << " " << run.triangle;
       }

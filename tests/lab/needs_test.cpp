@@ -332,8 +332,10 @@ std::vector<std::uint32_t> picture_of(const Levels& levels, const Scene& scene, 
     const UnsnappedTriangle& at = frontend.unsnapped()[i];
     ScreenTriangle t = all[i];
     for (int k = 0; k < 3; ++k) {
-      t.x_sub[k] = static_cast<std::int32_t>(std::nearbyint(double{at.x_px[k]} * scale) / scale * 256);
-      t.y_sub[k] = static_cast<std::int32_t>(std::nearbyint(double{at.y_px[k]} * scale) / scale * 256);
+      t.x_q15[k] = static_cast<std::int32_t>(std::nearbyint(double{at.x_px[k]} * scale) / scale *
+                                             contract::kPixel_q15);
+      t.y_q15[k] = static_cast<std::int32_t>(std::nearbyint(double{at.y_px[k]} * scale) / scale *
+                                             contract::kPixel_q15);
     }
     const bool front = test == "no test"      ? true
                        : by_normal            ? fronts[t.payload] != 0

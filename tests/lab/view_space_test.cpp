@@ -52,8 +52,8 @@ TEST(WithCamera, ShowsWhatTheMatricesShow) {
     ASSERT_EQ(b.size(), a.size());
     for (std::size_t i = 0; i < a.size(); ++i)
       for (int k = 0; k < 3; ++k) {
-        EXPECT_LE(std::abs(a[i].x_sub[k] - b[i].x_sub[k]), 1);
-        EXPECT_LE(std::abs(a[i].y_sub[k] - b[i].y_sub[k]), 1);
+        EXPECT_LE(std::abs(a[i].x_q15[k] - b[i].x_q15[k]), 128);
+        EXPECT_LE(std::abs(a[i].y_q15[k] - b[i].y_q15[k]), 128);
         EXPECT_LE(std::abs(static_cast<std::int64_t>(a[i].z[k]) - b[i].z[k]), 1 << 9);  // 2^-22
       }
   }

@@ -12,12 +12,13 @@
 ; `scripts/prove` compares a constant whose comment begins with "=" with the named source. tests/raster/proofs_test.cpp
 ; compares the functions with those of contract.h, on many arguments.
 
-(define-const kSubBits Int 8)              ; = kSubBits of src/edgewise/contract.h
-(define-const kSub Int 256)                ; = kSub of src/edgewise/contract.h
-(define-const kHalf Int 128)               ; = kHalf of src/edgewise/contract.h
-(define-const kGuardSub Int 4194304)       ; = kGuardSub of src/edgewise/contract.h
+(define-const kFineBits Int 15)            ; = kFineBits of src/edgewise/contract.h
+(define-const kPixel_q15 Int 32768)        ; = kPixel_q15 of src/edgewise/contract.h
+(define-const kHalf_q15 Int 16384)         ; = kHalf_q15 of src/edgewise/contract.h
+(define-const kGuard_q15 Int 536870912)    ; = kGuard_q15 of src/edgewise/contract.h
 (define-const kMaxImageSide Int 16384)     ; = kMaxImageSide of src/edgewise/contract.h
-(define-const kMaxEdge Int 140737488355328) ; = kMaxEdge of src/edgewise/contract.h
+(define-const kMaxEdge_q30 Int 2305843009213693952) ; = kMaxEdge_q30 of src/edgewise/contract.h
+(define-const kPlaneBits Int 31)           ; = kPlaneBits of src/edgewise/contract.h
 (define-const kMaxTile Int 64)             ; = kMaxTile of src/edgewise/contract.h
 (define-const kDepthCell Int 64)           ; = kDepthCell of src/edgewise/contract.h
 (define-const kDepthHead Int 128)          ; = kDepthHead of src/edgewise/contract.h
@@ -33,6 +34,8 @@
 (define-const two46 Int 70368744177664)
 (define-const two53 Int 9007199254740992)
 (define-const two54 Int 18014398509481984)
+(define-const two60 Int 1152921504606846976)
+(define-const two61 Int 2305843009213693952)
 (define-const two63 Int 9223372036854775808)
 (define-const two64 Int 18446744073709551616)
 
@@ -46,9 +49,9 @@
 (define-fun minr ((u Real) (v Real)) Real (ite (< u v) u v))
 (define-fun absr ((v Real)) Real (ite (< v 0.0) (- v) v))
 
-; Rules 1 and 3. A coordinate or a sample of an image, in sub-units.
-(define-fun sample_sub ((pixel Int)) Int (+ (* kSub pixel) kHalf))
-(define-fun in_guard ((v Real)) Bool (between (- (to_real kGuardSub)) v (to_real kGuardSub)))
+; Rules 1 and 3. A coordinate or a sample of an image, in 2^-15 px.
+(define-fun sample_q15 ((pixel Int)) Int (+ (* kPixel_q15 pixel) kHalf_q15))
+(define-fun in_guard ((v Real)) Bool (between (- (to_real kGuard_q15)) v (to_real kGuard_q15)))
 (define-fun pixel_in_image ((p Int)) Bool (and (<= 0 p) (< p kMaxImageSide)))
 
 ; Rule 4. The edge from p to q, without bias; make_edge() and Edge::at() add the bias.
@@ -66,13 +69,13 @@
 ; signed_area(), and pixel_box() along an axis.
 (define-fun signed_area ((x0 Real) (y0 Real) (x1 Real) (y1 Real) (x2 Real) (y2 Real)) Real
   (- (* (- x1 x0) (- y2 y0)) (* (- y1 y0) (- x2 x0))))
-(define-fun first_sample ((c Int)) Int (div (+ c kHalf (- 1)) kSub))
+(define-fun first_sample ((c Int)) Int (div (+ c kHalf_q15 (- 1)) kPixel_q15))
 
 ; Rule 6. gradient(), before it wraps; the rounded step per pixel; and depth, before it wraps, at the middle pixel of a
 ; cell whose sample is (dx, dy) from the anchor, and at pixel (x, y) of the cell.
-(define-fun gradient ((n Int) (area Int)) Int (div (* two24 n) area))
+(define-fun gradient ((n Int) (area Int)) Int (div (* two31 n) area))
 (define-fun depth_step ((g Int)) Int (div (+ g 32768) two16))
 (define-fun depth_middle ((z Int) (gx Int) (gy Int) (dx Int) (dy Int)) Int
-  (div (+ (* two24 z) 8388608 (* gx dx) (* gy dy)) two24))
+  (div (+ (* two31 z) 1073741824 (* gx dx) (* gy dy)) two31))
 (define-fun depth_at ((z Int) (gx Int) (gy Int) (dx Int) (dy Int) (x Int) (y Int)) Int
   (+ (depth_middle z gx gy dx dy) (* (- x 32) (depth_step gx)) (* (- y 32) (depth_step gy))))

@@ -14,12 +14,12 @@
 ;; claim samples_in_guard: Every sample of the largest image lies in the guard band.
 (declare-const p Int)
 (assert (pixel_in_image p))
-(assert (not (in_guard (to_real (sample_sub p)))))
+(assert (not (in_guard (to_real (sample_q15 p)))))
 
 ;; weakened samples_in_guard: So does the sample after the last.
 (declare-const p Int)
 (assert (and (<= 0 p) (<= p kMaxImageSide)))
-(assert (not (in_guard (to_real (sample_sub p)))))
+(assert (not (in_guard (to_real (sample_q15 p)))))
 
 ;; claim differences: A difference of coordinates is at most 2^23 in size.
 (assert (not (between (- 8388608.0) (- sx px) 8388608.0)))
@@ -38,8 +38,8 @@
 (define-fun fits ((v Real)) Bool (between (- 35184372088832.0) v 35184372088832.0))
 (assert (not (fits (+ (* a sx) (* b sy)))))
 
-;; claim edge_width: |E| <= 2^47 = kMaxEdge, from the sizes of its two products.
-(assert (not (between (- (to_real kMaxEdge)) (edge_at px py qx qy sx sy) (to_real kMaxEdge))))
+;; claim edge_width: |E| <= 2^47 = kMaxEdge_q30, from the sizes of its two products.
+(assert (not (between (- (to_real kMaxEdge_q30)) (edge_at px py qx qy sx sy) (to_real kMaxEdge_q30))))
 
 ;; weakened edge_width: |E| < 2^46.
 (assert (not (< (edge_at px py qx qy sx sy) 70368744177664.0)))

@@ -47,15 +47,15 @@
 ;;   first_sample() of it. So the pixels from first_sample(min) to before first_sample(max) are those with min <=
 ;;   sample < max.
 (declare-const c Int) (declare-const pixel Int)
-(assert (not (= (<= c (sample_sub pixel)) (<= (first_sample c) pixel))))
+(assert (not (= (<= c (sample_q15 pixel)) (<= (first_sample c) pixel))))
 
 ;; weakened first_sample: The same for a sample strictly after the coordinate.
 (declare-const c Int) (declare-const pixel Int)
-(assert (not (= (< c (sample_sub pixel)) (<= (first_sample c) pixel))))
+(assert (not (= (< c (sample_q15 pixel)) (<= (first_sample c) pixel))))
 
 ;; claim empty_box: If a triangle covers a sample, its box is not empty, because min <= sample < max.
 (declare-const least Int) (declare-const most Int) (declare-const pixel Int)
-(assert (and (<= least (sample_sub pixel)) (< (sample_sub pixel) most)))
+(assert (and (<= least (sample_q15 pixel)) (< (sample_q15 pixel) most)))
 (assert (not (< (first_sample least) (first_sample most))))
 
 ;; weakened empty_box: If a vertex is left of another, its box is not empty.

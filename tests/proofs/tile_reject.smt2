@@ -59,13 +59,13 @@
 ;;   block. least is the edge value where it is least; others is the sum of the other two edge values where this one
 ;;   is largest.
 (declare-const span Int) (declare-const area Int) (declare-const least Int) (declare-const others Int)
-(assert (and (>= least 0) (>= others 0) (= area (+ least (* kSub span) others))))
-(assert (not (<= (div span kSub) (div area two16))))
+(assert (and (>= least 0) (>= others 0) (= area (+ least (* kPixel_q15 span) others))))
+(assert (not (<= (div span kPixel_q15) (div area two16))))
 
 ;; weakened may_fill_blocks: Nor does an edge whose span equals twice the area.
 (declare-const span Int) (declare-const area Int) (declare-const least Int) (declare-const others Int)
-(assert (and (>= least 0) (>= others 0) (= area (+ least (* kSub span) others))))
-(assert (not (< (div span kSub) (div area two16))))
+(assert (and (>= least 0) (>= others 0) (= area (+ least (* kPixel_q15 span) others))))
+(assert (not (< (div span kPixel_q15) (div area two16))))
 
 ;; claim gentle_bound: Let a plane have steps below kSteep, and be within the depth range at a pixel. At a pixel up to
 ;;   63 px away on both axes, its value wrapped to 32 bits is at most the exact value, so a wrapped value counts as

@@ -3,29 +3,29 @@
 
 ;; claim steps_commute: Shifting and stepping commute: floor((E + 256 k) / 256) = floor(E / 256) + k.
 (declare-const e Int) (declare-const k Int)
-(assert (not (= (div (+ e (* kSub k)) kSub) (+ (div e kSub) k))))
+(assert (not (= (div (+ e (* kPixel_q15 k)) kPixel_q15) (+ (div e kPixel_q15) k))))
 
 ;; weakened steps_commute: So do steps of half a pixel.
 (declare-const e Int) (declare-const k Int)
-(assert (not (= (div (+ e (* kHalf k)) kSub) (+ (div e kSub) (div k 2)))))
+(assert (not (= (div (+ e (* kHalf_q15 k)) kPixel_q15) (+ (div e kPixel_q15) (div k 2)))))
 
 ;; claim shifted_sign: The shifted value is negative exactly where the full one is, after any number of steps.
 (declare-const e Int) (declare-const k Int)
-(assert (not (= (< (+ e (* kSub k)) 0) (< (+ (div e kSub) k) 0))))
+(assert (not (= (< (+ e (* kPixel_q15 k)) 0) (< (+ (div e kPixel_q15) k) 0))))
 
 ;; weakened shifted_sign: It is zero exactly where the full one is.
 (declare-const e Int) (declare-const k Int)
-(assert (not (= (= (+ e (* kSub k)) 0) (= (+ (div e kSub) k) 0))))
+(assert (not (= (= (+ e (* kPixel_q15 k)) 0) (= (+ (div e kPixel_q15) k) 0))))
 
 ;; claim bias_then_shift: If the bias is added before the shift, the shifted value decides as the biased value does.
 (declare-const e Int) (declare-const k Int) (declare-const bias_of_edge Int)
 (assert (or (= bias_of_edge 0) (= bias_of_edge (- 1))))
-(assert (not (= (>= (+ (div (+ e bias_of_edge) kSub) k) 0) (>= (+ e (* kSub k) bias_of_edge) 0))))
+(assert (not (= (>= (+ (div (+ e bias_of_edge) kPixel_q15) k) 0) (>= (+ e (* kPixel_q15 k) bias_of_edge) 0))))
 
 ;; weakened bias_then_shift: The same if the bias is added after the shift.
 (declare-const e Int) (declare-const k Int) (declare-const bias_of_edge Int)
 (assert (or (= bias_of_edge 0) (= bias_of_edge (- 1))))
-(assert (not (= (>= (+ (div e kSub) bias_of_edge k) 0) (>= (+ e (* kSub k) bias_of_edge) 0))))
+(assert (not (= (>= (+ (div e kPixel_q15) bias_of_edge k) 0) (>= (+ e (* kPixel_q15 k) bias_of_edge) 0))))
 
 ;; claim crossed_tile_fits: In a tile of 64 x 64 pixels with a pixel on either side of the edge, the shifted values
 ;;   stay within 2^30 of zero, at all pixels and one step beyond the last. (u, v) is any pixel, f the shifted value at

@@ -30,7 +30,7 @@ struct Lattice {
 Lattice steps(std::string name, int px, int steps_per_px) {
   Lattice lattice{std::move(name), {}};
   for (int i = 0; i <= px * steps_per_px; ++i)
-    lattice.coordinates.push_back(i * contract::kSub / steps_per_px);
+    lattice.coordinates.push_back(i * contract::kPixel_q15 / steps_per_px);
   return lattice;
 }
 
@@ -38,7 +38,7 @@ Lattice steps(std::string name, int px, int steps_per_px) {
 Lattice around_samples(int px) {
   Lattice lattice{"around_samples", {}};
   for (int i = 0; i < px; ++i)
-    for (const int off : {-1, 0, 1}) lattice.coordinates.push_back(contract::sample_sub(i) + off);
+    for (const int off : {-128, 0, 128}) lattice.coordinates.push_back(contract::sample_q15(i) + off);
   return lattice;
 }
 
@@ -53,10 +53,10 @@ ScreenTriangle triangle_of(const Lattice& lattice, std::uint64_t number, std::ui
     const std::uint64_t point = number % lattice.points(), side = lattice.coordinates.size();
     number /= lattice.points();
     const auto origin = [](std::uint32_t c) {
-      return static_cast<std::int32_t>(c) * kCellPx * contract::kSub;
+      return static_cast<std::int32_t>(c) * kCellPx * contract::kPixel_q15;
     };
-    t.x_sub[i] = origin(cell % kCellsASide) + lattice.coordinates[point % side];
-    t.y_sub[i] = origin(cell / kCellsASide) + lattice.coordinates[point / side];
+    t.x_q15[i] = origin(cell % kCellsASide) + lattice.coordinates[point % side];
+    t.y_q15[i] = origin(cell / kCellsASide) + lattice.coordinates[point / side];
     t.z[i] = quantize_depth(static_cast<float>(depths.below(1 << 16)) * 0x1p-16f);  // a stream can hold it
   }
   t.payload = cell;

@@ -38,10 +38,10 @@ class Mistaken : public Backend {
       // The box holds every sample that the triangle touches, since some variants cover too many samples.
       const auto [min_x, max_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
       const auto [min_y, max_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
-      for (int y = std::max(min_y / contract::kSub, 0);
-           y <= std::min(max_y / contract::kSub, frame.height - 1); ++y)
-        for (int x = std::max(min_x / contract::kSub, 0);
-             x <= std::min(max_x / contract::kSub, frame.width - 1); ++x) {
+      for (int y = std::max(min_y / contract::kPixel_q15, 0);
+           y <= std::min(max_y / contract::kPixel_q15, frame.height - 1); ++y)
+        for (int x = std::max(min_x / contract::kPixel_q15, 0);
+             x <= std::min(max_x / contract::kPixel_q15, frame.width - 1); ++x) {
           if (edges[0].at(x, y) < 0 || edges[1].at(x, y) < 0 || edges[2].at(x, y) < 0) continue;
           std::uint32_t z = plane.at(x, y);
           if (kMistake == Mistake::one_lane_is_a_unit_deeper && x % 8 == 5) ++z;

@@ -9,7 +9,7 @@
 namespace edgewise::testing {
 
 std::int32_t snapped_to_grid(float px) {
-  return static_cast<std::int32_t>(std::lrint(double{px} * contract::kSub));
+  return static_cast<std::int32_t>(std::lrint(double{px} * Coarse::kSub)) * (1 << Coarse::kSpareBits);
 }
 
 std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payload) {
@@ -19,8 +19,8 @@ std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payloa
     ScreenTriangle& out = triangles.emplace_back();
     out.payload = payload == Payload::id ? id : t.colour;
     for (int i = 0; i < 3; ++i) {
-      out.x_sub[i] = snapped_to_grid(t.vertex[i].x);
-      out.y_sub[i] = snapped_to_grid(t.vertex[i].y);
+      out.x_q15[i] = snapped_to_grid(t.vertex[i].x);
+      out.y_q15[i] = snapped_to_grid(t.vertex[i].y);
       out.z[i] = quantize_depth(t.vertex[i].z);
     }
   }

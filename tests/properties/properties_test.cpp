@@ -95,7 +95,8 @@ TriangleStream on_grid(const TriangleStream& stream) {
   TriangleStream result = stream;
   for (StreamTriangle& t : result.triangles)
     for (glm::vec3& v : t.vertex)
-      for (const int axis : {0, 1}) v[axis] = static_cast<float>(snapped_to_grid(v[axis])) / contract::kSub;
+      for (const int axis : {0, 1})
+        v[axis] = static_cast<float>(snapped_to_grid(v[axis])) / contract::kPixel_q15;
   return result;
 }
 
@@ -295,21 +296,21 @@ TEST_F(CoverageProperties, MovingByWholePixelsKeepsHitCounts) {
 
 // ---- Not invariant: differences are counted, and must lie near edges.
 
-// Whether a sample is within `reach` sub-units of the line of some edge.
+// Whether a sample is within `reach` 2^-15 px of the line of some edge.
 bool near_an_edge(std::span<const ScreenTriangle> triangles, int x, int y, double reach) {
   for (const ScreenTriangle& t : triangles)
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
-      const double dx = t.x_sub[j] - t.x_sub[i], dy = t.y_sub[j] - t.y_sub[i];
+      const double dx = t.x_q15[j] - t.x_q15[i], dy = t.y_q15[j] - t.y_q15[i];
       const double cross =
-          dx * (contract::sample_sub(y) - t.y_sub[i]) - dy * (contract::sample_sub(x) - t.x_sub[i]);
+          dx * (contract::sample_q15(y) - t.y_q15[i]) - dy * (contract::sample_q15(x) - t.x_q15[i]);
       if (std::abs(cross) <= reach * std::hypot(dx, dy)) return true;
     }
   return false;
 }
 
 TEST_F(CoverageProperties, ClippingAtTheGuardBandChangesSamplesNearEdgesOnly) {
-  constexpr double kReachSub = 1.0;
+  constexpr double kReach_q15 = 1 << Coarse::kSpareBits;
   Frontend frontend;
   std::uint64_t differing = 0;
   check(far_streams(), 2'000, [&](const TriangleStream& stream) {
@@ -323,7 +324,7 @@ TEST_F(CoverageProperties, ClippingAtTheGuardBandChangesSamplesNearEdgesOnly) {
       if (exact[i] == clipped[i]) continue;
       ++differing;
       const int x = static_cast<int>(i) % stream.width, y = static_cast<int>(i) / stream.width;
-      verdict.compare(near_an_edge(whole, x, y, kReachSub) ? "" : "differs away from all edges", "clipped");
+      verdict.compare(near_an_edge(whole, x, y, kReach_q15) ? "" : "differs away from all edges", "clipped");
     }
     for_each_way([&](const Painter& painter, const lab::DrawOptions& way, const std::string& what) {
       verdict.compare(hits_text(clipped, hits(painter, pieces, stream, way), stream.width), what);

@@ -14,15 +14,14 @@ namespace edgewise::testing {
 
 namespace {
 
-using contract::kSub;
-
 // How streams shrink: fewer triangles, a smaller image, nearer to the origin, rounder numbers.
 
 // Snapped to the grid first, then towards 0.
 rc::Seq<float> simpler_positions(float px) {
-  const std::int32_t sub = snapped_to_grid(px);
-  if (pixels(sub) != px) return rc::seq::just(pixels(sub));
-  return rc::seq::map(rc::shrink::towards(sub, 0), pixels);
+  const std::int32_t q15 = snapped_to_grid(px);
+  if (pixels(q15) != px) return rc::seq::just(pixels(q15));
+  return rc::seq::map(rc::shrink::towards(q15 >> Coarse::kSpareBits, 0),
+                      [](std::int32_t sub) { return pixels(sub << Coarse::kSpareBits); });
 }
 
 rc::Seq<float> simpler_depths(float z) {
@@ -129,7 +128,7 @@ TriangleStream make_float_stream(Random& random, int size) {
       for (const int axis : {0, 1})
         if (std::abs(v[axis]) < kFinePositions_px)
           v[axis] += static_cast<float>(between(random, -kStepsPerSubUnit, kStepsPerSubUnit)) /
-                     (kStepsPerSubUnit * kSub);
+                     (kStepsPerSubUnit * Coarse::kSub);
       if (random.below(8) == 0) v.z = random.below(2) == 0 ? 1.0f : 1e-40f;
     }
   return stream;

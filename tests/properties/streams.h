@@ -10,8 +10,8 @@
 
 namespace edgewise::testing {
 
-inline float pixels(std::int32_t sub) {
-  return static_cast<float>(sub) / contract::kSub;
+inline float pixels(std::int32_t q15) {
+  return static_cast<float>(q15) / contract::kPixel_q15;
 }
 
 // `make` turns random numbers and a size of 1 to 100 into a value; `simpler` lists simpler values to try

@@ -12,8 +12,7 @@ namespace edgewise::testing {
 
 namespace {
 
-using contract::kGuardSub;
-using contract::kSub;
+constexpr std::int32_t kSub = Coarse::kSub, kGuardSub = Coarse::kGuardSub;
 
 struct Point {
   std::int32_t x, y;  // sub-units
@@ -75,7 +74,9 @@ TriangleStream build(const Recipe& recipe) {
   for (const std::uint32_t edge : recipe.flips) flip(mesh, edge);
   TriangleStream stream{recipe.width, recipe.height, {}};
   for (const Triangle& t : mesh) {
-    const auto vertex = [&](std::size_t i) { return glm::vec3(pixels(t[i].x), pixels(t[i].y), 0.5f); };
+    const auto vertex = [&](std::size_t i) {
+      return glm::vec3(glm::vec2(t[i].x, t[i].y) / float{kSub}, 0.5f);
+    };
     const auto n = static_cast<std::uint32_t>(stream.triangles.size() + 1);
     stream.triangles.push_back({{vertex(0), vertex(1), vertex(2)}, 0xFF000000u | n * 0x9E3779u});
   }
@@ -103,7 +104,7 @@ Recipe make_recipe(Random& random, int size) {
         p = {p.x / kSub * kSub, p.y / kSub * kSub};
         break;
       case 1:
-        p = {contract::sample_sub(p.x / kSub), contract::sample_sub(p.y / kSub)};
+        p = {Coarse::sample(p.x / kSub), Coarse::sample(p.y / kSub)};
         break;
       case 2:  // slivers
         if (!recipe.points.empty())

@@ -96,8 +96,8 @@ class Truth {
     const std::uint32_t id = shown_.id(x, y);
     if (id_ != id) id_ = id, make_pieces(id);
     for (const Piece& piece : pieces_) {
-      const ScreenTriangle t{{piece[0].snapped.x_sub, piece[1].snapped.x_sub, piece[2].snapped.x_sub},
-                             {piece[0].snapped.y_sub, piece[1].snapped.y_sub, piece[2].snapped.y_sub},
+      const ScreenTriangle t{{piece[0].snapped.x_q15, piece[1].snapped.x_q15, piece[2].snapped.x_q15},
+                             {piece[0].snapped.y_q15, piece[1].snapped.y_q15, piece[2].snapped.y_q15},
                              {},
                              id};
       const lab::SnappedTruth coverage(t);
@@ -107,8 +107,8 @@ class Truth {
       double w_error = 0.0;
       for (std::size_t i = 0; i < 3; ++i) {
         const Vertex &a = piece[(i + 1) % 3].snapped, &b = piece[(i + 2) % 3].snapped;
-        const mpq_class sx = 256 * x + 128, sy = 256 * y + 128;
-        const mpq_class edge = (b.x_sub - a.x_sub) * (sy - a.y_sub) - (b.y_sub - a.y_sub) * (sx - a.x_sub);
+        const mpq_class sx = contract::sample_q15(x), sy = contract::sample_q15(y);
+        const mpq_class edge = (b.x_q15 - a.x_q15) * (sy - a.y_q15) - (b.y_q15 - a.y_q15) * (sx - a.x_q15);
         const mpq_class weight = edge * coverage.facing() / mpq_class(piece[i].at.w);
         sum += weight, z += weight * mpq_class(piece[i].at.z);
         u += weight * piece[i].weights[1], v += weight * piece[i].weights[2];
@@ -337,7 +337,8 @@ TriangleStream stream_of(const std::vector<ScreenTriangle>& triangles, int width
   for (const ScreenTriangle& t : triangles) {
     StreamTriangle& out = stream.triangles.emplace_back();
     for (int i = 0; i < 3; ++i)
-      out.vertex[i] = {static_cast<float>(t.x_sub[i]) / 256.0f, static_cast<float>(t.y_sub[i]) / 256.0f,
+      out.vertex[i] = {static_cast<float>(t.x_q15[i]) / contract::kPixel_q15,
+                       static_cast<float>(t.y_q15[i]) / contract::kPixel_q15,
                        static_cast<float>(contract::depth01(t.z[i]))};
   }
   return stream;

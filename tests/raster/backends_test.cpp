@@ -76,8 +76,8 @@ TEST_P(EveryBackend, MatchesTheOracleWhenMasksExceedTheirMemory) {
   Random random(1);
   const auto below = [&](int end) { return testing::between(random, 0, end - 1); };
   for (std::uint32_t id = 0; ScreenTriangle & t : triangles) {
-    const std::int32_t x = below(90 * kSub), y = below(70 * kSub);
-    t = {{x, x + kSide, x + below(kSide)}, {y, y + below(kSide), y + kSide}, {}, id++};
+    const std::int32_t x = below(90 * Coarse::kSub), y = below(70 * Coarse::kSub);
+    t = testing::coarse({{x, x + kSide, x + below(kSide)}, {y, y + below(kSide), y + kSide}, {}, id++});
     for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(below(1000));
   }
   expect_oracle(triangles, 97, 71, "coverage masks of 8 x 8 pixels");
@@ -91,7 +91,7 @@ TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
 // Small and large triangles may be in different lists, whose segments fill up at different triangles.
 TEST_P(EveryBackend, TiesKeepTheEarlierOfASmallAndALargeTriangle) {
   const auto right_angled = [](int at_px, int side_px, std::uint32_t z, std::uint32_t payload) {
-    const std::int32_t begin = at_px * kSub, end = (at_px + side_px) * kSub;
+    const std::int32_t begin = at_px * kPixel_q15, end = (at_px + side_px) * kPixel_q15;
     return ScreenTriangle{{begin, end, begin}, {begin, begin, end}, {z, z, z}, payload};
   };
   for (std::uint32_t before = 1; before <= 70; ++before) {
@@ -119,7 +119,8 @@ TEST_P(EveryBackend, DrawsManyTrianglesTheSameOnEveryThreadCount) {
     const auto x = static_cast<std::int32_t>(n * 2654435761u >> 18),
                y = static_cast<std::int32_t>(n * 40503u >> 18);
     const std::uint32_t z = kDepthHead + (n * 2246822519u >> 12);
-    triangles[i] = {{x, x + px * kSub, x}, {y, y, y + px * kSub}, {z, z, z}, n};
+    triangles[i] =
+        testing::coarse({{x, x + px * Coarse::kSub, x}, {y, y, y + px * Coarse::kSub}, {z, z, z}, n});
   }
   const auto drawn = [&](int threads) {
     Framebuffer frame(side, side);

@@ -47,12 +47,10 @@ class BinsOnTarget : public ::testing::TestWithParam<SimdTarget> {
   Bins bins_;
 };
 
+// In 1/256 px.
 ScreenTriangle triangle(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1, std::int32_t x2,
                         std::int32_t y2) {
-  ScreenTriangle t{};
-  t.x_sub[0] = x0, t.x_sub[1] = x1, t.x_sub[2] = x2;
-  t.y_sub[0] = y0, t.y_sub[1] = y1, t.y_sub[2] = y2;
-  return t;
+  return coarse({{x0, x1, x2}, {y0, y1, y2}, {}, 0});
 }
 
 // Makes so many equal triangles of eight inputs.
@@ -100,17 +98,17 @@ std::vector<ScreenTriangle> around_a_corner(int corner_px, std::int32_t reach_su
   const auto within = [&](std::int32_t reach) {
     return static_cast<std::int32_t>(random.below(2 * static_cast<std::uint64_t>(reach) + 1)) - reach;
   };
-  const std::int32_t corner = corner_px * kSub;
+  const std::int32_t corner = corner_px * Coarse::kSub;
   std::vector<ScreenTriangle> out;
   for (int i = 0; i < count; ++i) {
     const std::int32_t dx = within(reach_sub), dy = within(reach_sub);
-    const std::int32_t x = corner + (i & 4 ? kHalf : -kHalf) + within(2);
-    const std::int32_t y = corner + (i & 8 ? kHalf : -kHalf) + within(2);
+    const std::int32_t x = corner + (i & 4 ? Coarse::kHalf : -Coarse::kHalf) + within(2);
+    const std::int32_t y = corner + (i & 8 ? Coarse::kHalf : -Coarse::kHalf) + within(2);
     const std::int32_t far_x = corner + within(reach_sub), far_y = corner + within(reach_sub);
-    out.push_back(triangle(x - dx, y - dy, x + dx + within(2), y + dy + within(2), far_x, far_y));
-    auto& t = out.back();
-    if (i % 2 != 0) std::swap(t.x_sub[0], t.x_sub[2]), std::swap(t.y_sub[0], t.y_sub[2]);
-    if (i % 3 == 0) t.x_sub[2] = x + within(3), t.y_sub[2] = y + within(3);  // a sliver
+    ScreenTriangle t{{x - dx, x + dx + within(2), far_x}, {y - dy, y + dy + within(2), far_y}, {}, 0};
+    if (i % 2 != 0) std::swap(t.x_q15[0], t.x_q15[2]), std::swap(t.y_q15[0], t.y_q15[2]);
+    if (i % 3 == 0) t.x_q15[2] = x + within(3), t.y_q15[2] = y + within(3);  // a sliver
+    out.push_back(coarse(t));
   }
   return out;
 }
@@ -159,7 +157,7 @@ TEST_P(BinsOnTarget, LoseNoTriangleNearACellCorner) {
   for (const int log2 : {3, 6, 13}) {  // 13: edges of the maximum length
     const CellGrid grid{2 << log2, 2 << log2, log2, log2};
     const auto triangles =
-        around_a_corner(1 << log2, ((1 << log2) - 4) * kSub, log2 == 13 ? count / 1000 : count);
+        around_a_corner(1 << log2, ((1 << log2) - 4) * Coarse::kSub, log2 == 13 ? count / 1000 : count);
     SCOPED_TRACE("cells of " + std::to_string(1 << log2));
     expect_no_loss(triangles, grid, lists(triangles, grid));
   }
@@ -168,8 +166,8 @@ TEST_P(BinsOnTarget, LoseNoTriangleNearACellCorner) {
 TEST_P(BinsOnTarget, RejectUncoveredCellsOfLargeBoxes) {
   const CellGrid grid{64, 64, 4, 4};
   std::vector<ScreenTriangle> triangles;  // in the four corners of the image
-  for (const auto& [x, far_x] : {std::pair{0, 62 * kSub}, {64 * kSub, 2 * kSub}})
-    for (const auto& [y, far_y] : {std::pair{0, 62 * kSub}, {64 * kSub, 2 * kSub}})
+  for (const auto& [x, far_x] : {std::pair{0, 62 * Coarse::kSub}, {64 * Coarse::kSub, 2 * Coarse::kSub}})
+    for (const auto& [y, far_y] : {std::pair{0, 62 * Coarse::kSub}, {64 * Coarse::kSub, 2 * Coarse::kSub}})
       triangles.push_back(triangle(x, y, far_x, y, x, far_y));
   const auto found = lists(triangles, grid);
   expect_no_loss(triangles, grid, found);

@@ -95,7 +95,8 @@ TEST(Compositions, DrawTheSamePicturesOfHardTrianglesInRenderPasses) {
 // the large ones also in the tile of their boxes where they cover nothing.
 std::string parts_used(const BackendInfo& info, SimdTarget target) {
   const auto right_angled = [](int x_px, int y_px, int leg_px, std::uint32_t z) {
-    const std::int32_t x = x_px * contract::kSub, y = y_px * contract::kSub, leg = leg_px * contract::kSub;
+    using contract::kPixel_q15;
+    const std::int32_t x = x_px * kPixel_q15, y = y_px * kPixel_q15, leg = leg_px * kPixel_q15;
     return ScreenTriangle{{x, x + leg, x}, {y, y, y + leg}, {z, z, z}, 1};
   };
   std::vector triangles{right_angled(0, 0, 128, 500), right_angled(0, 0, 128, 900),

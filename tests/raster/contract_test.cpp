@@ -12,7 +12,7 @@ namespace {
 using namespace contract;
 
 std::uint64_t exact_gradient(std::int64_t n, std::int64_t area) {
-  const int128 wide = static_cast<int128>(n) * (1 << 24);
+  const int128 wide = static_cast<int128>(n) * (std::int64_t{1} << kPlaneBits);
   return static_cast<std::uint64_t>(wide / area - (wide % area < 0));
 }
 
@@ -25,13 +25,13 @@ TEST(Contract, GradientIsTheExactFloor) {
     return static_cast<std::int64_t>(random.below(std::uint64_t{1} << bits));
   };
   for (int i = 0; i < 2'000'000; ++i) {
-    const std::int64_t n = below_2_to(random.below(55));
-    expect_exact(random.below(2) ? n : -n, 1 + below_2_to(random.below(47)));
+    const std::int64_t n = below_2_to(random.below(62));
+    expect_exact(random.below(2) ? n : -n, 1 + below_2_to(random.below(60)));
   }
-  for (const int shift : {0, 1, 20, 26, 27, 28, 29, 45, 46})
+  for (const int shift : {0, 1, 20, 26, 27, 28, 29, 45, 46, 59, 60})
     for (const std::int64_t wobble : {-2, -1, 0, 1, 2})
-      for (const std::int64_t n : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::int64_t{1} << 54,
-                                   -(std::int64_t{1} << 54), (std::int64_t{1} << 53) + 1})
+      for (const std::int64_t n : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::int64_t{1} << 61,
+                                   -(std::int64_t{1} << 61), (std::int64_t{1} << 53) + 1})
         expect_exact(n, std::max<std::int64_t>(1, (std::int64_t{1} << shift) + wobble));
 }
 
@@ -51,8 +51,8 @@ int expect_depth_error_bounded(const ScreenTriangle& triangle, int size) {
       int128 weighted = 0;
       for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const int128 weight = static_cast<int128>(t.x[j] - t.x[i]) * (sample_sub(y) - t.y[i]) -
-                              static_cast<int128>(t.y[j] - t.y[i]) * (sample_sub(x) - t.x[i]);
+        const int128 weight = static_cast<int128>(t.x[j] - t.x[i]) * (sample_q15(y) - t.y[i]) -
+                              static_cast<int128>(t.y[j] - t.y[i]) * (sample_q15(x) - t.x[i]);
         weighted += weight * t.z[k];
       }
       const std::uint32_t z = plane.at(x, y);
@@ -72,9 +72,9 @@ TEST(Contract, DepthStaysWithinItsStatedError) {
       samples += expect_depth_error_bounded(t, kSize);
   Random random(3);
   for (auto t : testing::adversarial("steep", 3000, 64, 64, 10)) {  // far from the origin
-    const std::int32_t dx = testing::between(random, 0, 16200) * kSub,
-                       dy = testing::between(random, 0, 16200) * kSub;
-    for (int i = 0; i < 3; ++i) t.x_sub[i] += dx, t.y_sub[i] += dy;
+    const std::int32_t dx = testing::between(random, 0, 16200) * kPixel_q15,
+                       dy = testing::between(random, 0, 16200) * kPixel_q15;
+    for (int i = 0; i < 3; ++i) t.x_q15[i] += dx, t.y_q15[i] += dy;
     samples += expect_depth_error_bounded(t, kMaxImageSide);
   }
   EXPECT_GT(samples, 10'000);

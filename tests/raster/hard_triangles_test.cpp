@@ -10,6 +10,7 @@ namespace {
 
 using namespace contract;
 using testing::between;
+using testing::coarse;
 using testing::EveryBackend;
 
 // a^-1 mod m, for coprime a and m.
@@ -48,21 +49,26 @@ TEST_P(EveryBackend, ResolvesEdgesNextToASample) {
   };
   // Tall edges; then sides just below 16 px, the steepest edges that small triangles can have. An edge's
   // value is rounded down to whole pixels: 0 … 255 count as 0.
-  const Case cases[] = {
-      {70, {2 * kGuardSub - 40'001, kGuardSub + 1, 131'071, 8'191}, {-1, 0, 1}, 2 * kGuardSub, 1000},
-      {8, {4'095, 4'093, 2'731}, {-256, -255, -1, 0, 1, 255, 256}, 1'900, 700}};
+  const Case cases[] = {{70,
+                         {2 * Coarse::kGuardSub - 40'001, Coarse::kGuardSub + 1, 131'071, 8'191},
+                         {-1, 0, 1},
+                         2 * Coarse::kGuardSub,
+                         1000},
+                        {8, {4'095, 4'093, 2'731}, {-256, -255, -1, 0, 1, 255, 256}, 1'900, 700}};
   for (const auto& [side, heights, rests, right, down] : cases)
     for (const std::int32_t dy : heights)
       for (const std::int64_t rest : rests)
         for (const int row : {0, side / 2, side - 1})
           for (const bool across : {false, true}) {
-            const auto [x, y, dx] = edge_beside(sample_sub(row * 5 % side), sample_sub(row), rest, dy);
+            const auto [x, y, dx] =
+                edge_beside(Coarse::sample(row * 5 % side), Coarse::sample(row), rest, dy);
             for (const std::int32_t third_x : {std::min(x, x + dx) - right, std::max(x, x + dx) + right}) {
-              ScreenTriangle t{{x, x + dx, std::clamp(third_x, -kGuardSub, kGuardSub)},
-                               {y, y + dy, y + down},
-                               {5000, 6000, 7000},
-                               1};
-              if (across) std::swap(t.x_sub, t.y_sub);
+              ScreenTriangle t =
+                  coarse({{x, x + dx, std::clamp(third_x, -Coarse::kGuardSub, Coarse::kGuardSub)},
+                          {y, y + dy, y + down},
+                          {5000, 6000, 7000},
+                          1});
+              if (across) std::swap(t.x_q15, t.y_q15);
               expect_oracle(std::span(&t, 1), side, side, std::to_string(dy) + ", " + std::to_string(rest));
             }
           }
@@ -73,8 +79,8 @@ TEST_P(EveryBackend, ResolvesEdgesNextToASample) {
 template <typename Depth>
 ScreenTriangle right_triangle(const Depth& z, int id, int left = -100, int right = 400, int bottom = 400) {
   constexpr int kTop = -100;
-  return {{left * kSub, right * kSub, left * kSub},
-          {kTop * kSub, kTop * kSub, bottom * kSub},
+  return {{left * kPixel_q15, right * kPixel_q15, left * kPixel_q15},
+          {kTop * kPixel_q15, kTop * kPixel_q15, bottom * kPixel_q15},
           {z(left, kTop), z(right, kTop), z(left, bottom)},
           static_cast<std::uint32_t>(id)};
 }
@@ -136,11 +142,12 @@ TEST_P(EveryBackend, DrawsSteepTrianglesWhoseDepthPlanesWrap) {
   Random random(17);
   const ScreenTriangle layer = right_triangle(at_depth(kDepthRange / 2), 1);
   for (int i = 0; i < 200; ++i) {
-    const std::int32_t x = between(random, 0, 4 * kSub), y = between(random, 0, 63 * kSub);
-    const ScreenTriangle thin{{x, between(random, 57 * kSub, 63 * kSub), x + between(random, -500, 500)},
-                              {y, between(random, 0, 63 * kSub), y + between(random, 100, 1000)},
-                              {kDepthHead, kDepthHead, kDepthHead + kDepthRange},
-                              2};
+    const std::int32_t x = between(random, 0, 4 * Coarse::kSub), y = between(random, 0, 63 * Coarse::kSub);
+    const ScreenTriangle thin =
+        coarse({{x, between(random, 57 * Coarse::kSub, 63 * Coarse::kSub), x + between(random, -500, 500)},
+                {y, between(random, 0, 63 * Coarse::kSub), y + between(random, 100, 1000)},
+                {kDepthHead, kDepthHead, kDepthHead + kDepthRange},
+                2});
     expect_oracle(std::array{layer, thin}, kWidth, kHeight, std::to_string(i));
   }
 }
@@ -151,14 +158,14 @@ TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
   constexpr int kWidth = 70, kHeight = 5;
   Random random(13);
   for (std::uint32_t id = 0; id < 100; ++id) {
-    const std::int32_t top = between(random, -kGuardSub, -kGuardSub / 2),
-                       far = between(random, kGuardSub / 2, kGuardSub);
-    ScreenTriangle t{{-far, far, between(random, -far, far)},
-                     {top, id % 2 == 0 ? top : top + between(random, 0, 1000), kGuardSub},
-                     {},
-                     id};
+    const std::int32_t top = between(random, -Coarse::kGuardSub, -Coarse::kGuardSub / 2),
+                       far = between(random, Coarse::kGuardSub / 2, Coarse::kGuardSub);
+    ScreenTriangle t = coarse({{-far, far, between(random, -far, far)},
+                               {top, id % 2 == 0 ? top : top + between(random, 0, 1000), Coarse::kGuardSub},
+                               {},
+                               id});
     for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
-    for (auto* field : {t.x_sub, t.y_sub}) std::rotate(field, field + id % 3, field + 3);
+    for (auto* field : {t.x_q15, t.y_q15}) std::rotate(field, field + id % 3, field + 3);
     expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(id));
   }
 }

@@ -67,7 +67,7 @@ void add_coverage(Equations& equations, const ScreenTriangle& triangle, int px, 
   const auto [min_x, max_x] = std::minmax({x[0], x[1], x[2]});
   if (box.x0 > 0) equations.add(call("first_sample", min_x), box.x0);
   if (box.x1 < kMaxImageSide) equations.add(call("first_sample", max_x), box.x1);
-  equations.add(call("sample_sub", px), sample_sub(px));
+  equations.add(call("sample_q15", px), sample_q15(px));
   if (area == 0) return;
   const Oriented t = orient(triangle);
   for (int i = 0; i < 3; ++i) {
@@ -78,9 +78,9 @@ void add_coverage(Equations& equations, const ScreenTriangle& triangle, int px, 
     equations.add(b, edge.b);
     equations.add(call_text("top_left", a, b), is_top_left(edge.a, edge.b) ? "true" : "false");
     const std::string e =
-        call_real("edge_at", t.x[i], t.y[i], t.x[j], t.y[j], sample_sub(px), sample_sub(py));
+        call_real("edge_at", t.x[i], t.y[i], t.x[j], t.y[j], sample_q15(px), sample_q15(py));
     equations.add(call_text("+", e, call_text("to_real", call_text("bias", a, b))), edge.at(px, py));
-    equations.add(call_real("owns", t.x[i], t.y[i], t.x[j], t.y[j], sample_sub(px), sample_sub(py)),
+    equations.add(call_real("owns", t.x[i], t.y[i], t.x[j], t.y[j], sample_q15(px), sample_q15(py)),
                   edge.at(px, py) >= 0 ? "true" : "false");
   }
 }
@@ -104,8 +104,8 @@ void add_depth(Equations& equations, const ScreenTriangle& triangle, int px, int
   for (int i = 1; i < 3; ++i)
     if (t.y[i] < t.y[top] || (t.y[i] == t.y[top] && t.x[i] < t.x[top])) top = i;
   const int x = px % kDepthCell, y = py % kDepthCell;
-  const std::string z = text(t.z[top]), dx = text(sample_sub(px - x + kDepthCell / 2) - t.x[top]),
-                    dy = text(sample_sub(py - y + kDepthCell / 2) - t.y[top]);
+  const std::string z = text(t.z[top]), dx = text(sample_q15(px - x + kDepthCell / 2) - t.x[top]),
+                    dy = text(sample_q15(py - y + kDepthCell / 2) - t.y[top]);
   add_wrapped(call_text("depth_at", z, gx, gy, dx, dy, text(0), text(0)), plane.base(px - x, py - y),
               "two32");
   add_wrapped(call_text("depth_at", z, gx, gy, dx, dy, text(x), text(y)), plane.at(px, py), "two32");

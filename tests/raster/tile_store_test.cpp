@@ -18,7 +18,7 @@ namespace edgewise {
 namespace {
 
 TEST(TileStore, IsTheCallersChoiceOrStreamingIfTheFrameIsClearedOnOneThread) {
-  constexpr int kSide = 2 * contract::kMaxTile, kLeg = 2000 * contract::kSub;
+  constexpr int kSide = 2 * contract::kMaxTile, kLeg = 2000 * contract::kPixel_q15;
   const ScreenTriangle all_over{{0, kLeg, 0}, {0, 0, kLeg}, {9, 9, 9}, 5};
   Framebuffer frame(kSide, kSide);
   static std::atomic<int> streamed;
@@ -48,7 +48,7 @@ TEST(TileStore, AutomaticallyStreamsLargeFrames) {
 
 // Tiles of which the part holds a pixel have tasks. If nothing is cleared, only those with triangles have.
 TEST(TileTasks, AreThoseOfThePart) {
-  constexpr int kSide = contract::kMaxTile, kLeg = 2000 * contract::kSub;
+  constexpr int kSide = contract::kMaxTile, kLeg = 2000 * contract::kPixel_q15;
   const ScreenTriangle all_over{{0, kLeg, 0}, {0, 0, kLeg}, {9, 9, 9}, 5};
   Framebuffer frame(5 * kSide, 5 * kSide);
   const auto cells = [&](std::span<const ScreenTriangle> triangles, int x1, int y1, int x0, int y0,

@@ -20,7 +20,7 @@ constexpr int kWidth = 90, kHeight = 70;
 constexpr std::uint32_t kEdgeDepth = kDepthHead + 1000;
 
 struct Point {
-  std::int32_t x, y;  // sub-units
+  std::int32_t x, y;  // 2^-15 px
 };
 using Pixels = std::set<std::pair<int, int>>;
 
@@ -39,11 +39,11 @@ Pixels edge_pixels(Backend& backend, Point a, Point b, Point third) {
 
 TEST(Wireframe, DrawsAnEdgeTheSameFromBothSidesAndInParts) {
   const auto backend = wireframe().make();
-  const Point above{-kGuardSub, -kGuardSub + 1}, below{kGuardSub, kGuardSub - 2};
+  const Point above{-kGuard_q15, -kGuard_q15 + 1}, below{kGuard_q15, kGuard_q15 - 2};
   Random random(17);
-  const auto pixel = [](Point p) { return std::pair(p.x / kSub, p.y / kSub); };
+  const auto pixel = [](Point p) { return std::pair(p.x / kPixel_q15, p.y / kPixel_q15); };
   for (int i = 0; i < 4000; ++i) {
-    const auto half = [&](int side) { return testing::between(random, 0, side * kSub / 2 - 1); };
+    const auto half = [&](int side) { return testing::between(random, 0, side * kPixel_q15 / 2 - 1); };
     const Point a{2 * half(kWidth), 2 * half(kHeight)}, b{2 * half(kWidth), 2 * half(kHeight)},
         middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
     Pixels whole = edge_pixels(*backend, a, b, above);

@@ -48,8 +48,8 @@ void expect_marker(const CameraMatrices& matrices, const Seen (&seen)[3], const 
   ASSERT_EQ(shown.triangles.size(), 1u) << what;
   const ScreenTriangle& t = shown.triangles[0];
   for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(t.x_sub[k], 256 * seen[k].x_px) << what << ", vertex " << k;
-    EXPECT_EQ(t.y_sub[k], 256 * seen[k].y_px) << what << ", vertex " << k;
+    EXPECT_EQ(t.x_q15[k], contract::kPixel_q15 * seen[k].x_px) << what << ", vertex " << k;
+    EXPECT_EQ(t.y_q15[k], contract::kPixel_q15 * seen[k].y_px) << what << ", vertex " << k;
     EXPECT_NEAR(t.z[k], contract::kDepthHead + contract::kDepthRange * seen[k].depth, tolerated_units)
         << what << ", vertex " << k;
   }

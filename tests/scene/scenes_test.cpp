@@ -141,7 +141,7 @@ TEST(Scenes, QuadsCoverEachPixelThreeTimes) {
   EXPECT_EQ(lab::covered_pixels(triangles, kWidth, kHeight), 3u * kWidth * kHeight);
   ASSERT_EQ(triangles.size(), 2u * (13 * 7 + 7 * 4 + 4 * 2));
   for (const ScreenTriangle& t : triangles)
-    for (int i = 0; i < 3; ++i) EXPECT_EQ((t.x_sub[i] | t.y_sub[i]) % (16 * 256), 0);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ((t.x_q15[i] | t.y_q15[i]) % (16 * contract::kPixel_q15), 0);
   const auto count = [&](double scale) {
     const Drawable scaled = quads.make({.width = kWidth, .height = kHeight, .scale = scale});
     return stream_of(scaled).triangles.size();
@@ -190,8 +190,8 @@ TEST(Camera, LooksAtItsTarget) {
     Frontend frontend;
     const auto triangles = frontend.run(scene, {.width = 100, .height = 100, .cull = Cull::none});
     ASSERT_FALSE(triangles.empty());
-    EXPECT_NEAR(triangles[0].x_sub[0], 50 * 256, 40);
-    EXPECT_NEAR(triangles[0].y_sub[0], 50 * 256, 40);
+    EXPECT_NEAR(triangles[0].x_q15[0], 50 * contract::kPixel_q15, 40 << Coarse::kSpareBits);
+    EXPECT_NEAR(triangles[0].y_q15[0], 50 * contract::kPixel_q15, 40 << Coarse::kSpareBits);
   }
 }
 

@@ -10,7 +10,7 @@ sys.path[:0] = [str(SCRIPTS / folder) for folder in ("reporting", "checks")]
 from program import BadInput  # noqa: E402
 from proofs import check_constants, constant_of, read_sections  # noqa: E402
 
-DEFINITIONS = "(define-const kSub Int 256) ; = kSub of src/edgewise/contract.h\n"
+DEFINITIONS = "(define-const kFineBits Int 15) ; = kFineBits of src/edgewise/contract.h\n"
 CLAIM = ";; claim even: Twice a number\n;;   is even.\n(assert (not (= (mod (* 2 v) 2) 0)))\n"
 WEAKENED = ";; weakened even: So is thrice.\n(assert (not (= (mod (* 3 v) 2) 0)))\n"
 INTRODUCTION = "; Numbers.\n(declare-const v Int)\n"
@@ -97,8 +97,8 @@ class ProveTest(ClaimsTest):
 
     def test_a_constant_that_drifts_from_its_source_is_refused(self):
         self.assertEqual(check_constants(self.folder, ROOT), 1)
-        self.claim(CLAIM + WEAKENED, DEFINITIONS.replace("256", "255"))
-        with self.assertRaisesRegex(BadInput, "kSub is 255 in the proofs, but kSub of src/edgewise/contract.h is 256"):
+        self.claim(CLAIM + WEAKENED, DEFINITIONS.replace("Int 15", "Int 14"))
+        with self.assertRaisesRegex(BadInput, "kFineBits is 14 in the proofs, but kFineBits of src/edgewise/contract.h is 15"):
             check_constants(self.folder, ROOT)
         self.claim(CLAIM + WEAKENED, DEFINITIONS.replace("contract.h", "gone.h"))
         with self.assertRaisesRegex(BadInput, "not there"):

@@ -82,8 +82,8 @@ void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResul
         for (const lab::VisibilityTriangle& t : scene.triangles)
           for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3;
-            picture.lines.push_back({t.screen.x_sub[i] / 256.0, t.screen.y_sub[i] / 256.0,
-                                     t.screen.x_sub[j] / 256.0, t.screen.y_sub[j] / 256.0});
+            picture.lines.push_back({t.screen.x_q15[i] / 32768.0, t.screen.y_q15[i] / 32768.0,
+                                     t.screen.x_q15[j] / 32768.0, t.screen.y_q15[j] / 32768.0});
           }
         return picture;
       });

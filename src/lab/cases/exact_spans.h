@@ -21,10 +21,10 @@ void for_each_span(const ScreenTriangle& triangle, int width, int height, Body&&
     return q * d > n ? q - 1 : q;
   };
   for (int y = box.y0; y < box.y1; ++y) {
-    // E grows by 256 a from pixel to pixel, so each edge bounds the pixels of a row on one side.
+    // E grows by 2^15 a from pixel to pixel, so each edge bounds the pixels of a row on one side.
     std::int64_t begin = box.x0, end = box.x1;
     for (const Edge& e : edges) {
-      const std::int64_t first = e.at(0, y), step = std::int64_t{e.a} * kSub;
+      const std::int64_t first = e.at(0, y), step = std::int64_t{e.a} * kPixel_q15;
       if (step > 0)
         begin = std::max(begin, -floor_divide(first, step));
       else if (step < 0)

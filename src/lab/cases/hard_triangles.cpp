@@ -24,21 +24,26 @@ struct Point {
   std::uint32_t z;    // contract units
 };
 
-std::int32_t into_guard_band(std::int64_t sub) {
-  return static_cast<std::int32_t>(std::clamp<std::int64_t>(sub, -kGuardSub, kGuardSub));
-}
-
 // The depth distribution of one list.
 enum class Depths { floats, units, few, close, ends };
 
 class ListMaker {
  public:
-  ListMaker(int count, int width, int height, const Numbers& numbers)
-      : numbers_(numbers),
+  ListMaker(int count, int width, int height, int subpixel_bits, const Numbers& numbers)
+      : bits(subpixel_bits),
+        pixel(1 << bits),
+        guard(kMaxImageSide * pixel),
+        numbers_(numbers),
         count_(static_cast<std::size_t>(count)),
-        width_sub_(width * kSub),
-        height_sub_(height * kSub) {}
+        width_sub_(width * pixel),
+        height_sub_(height * pixel) {}
 
+  const int bits;                   // subpixel bits
+  const std::int32_t pixel, guard;  // sub-units: a pixel, and the reach of the guard band
+  std::int32_t sample(std::int32_t px) const { return px * pixel + pixel / 2; }
+  std::int32_t into_guard_band(std::int64_t sub) const {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(sub, -guard, guard));
+  }
   std::int32_t width_sub() const { return width_sub_; }
   std::int32_t height_sub() const { return height_sub_; }
   bool full() const { return list_.size() >= count_; }
@@ -50,6 +55,8 @@ class ListMaker {
         low + static_cast<std::int64_t>(numbers_(static_cast<std::uint64_t>(high - low + 1))));
   }
   bool one_in(int n) { return between(1, n) == 1; }
+  // Sub-units with 8 bits; with more, as many or as long in pixels, or between the two.
+  std::int32_t stretched(std::int32_t sub) { return bits > 8 ? sub * (1 << between(0, bits - 8)) : sub; }
 
   std::uint32_t depth() {
     switch (depths_) {
@@ -81,7 +88,8 @@ class ListMaker {
   }
 
   void add(const Point& a, const Point& b, const Point& c) {
-    list_.push_back({{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}, 0});
+    const auto q15 = [&](std::int32_t sub) { return sub * (1 << (kFineBits - bits)); };
+    list_.push_back({{q15(a.x), q15(b.x), q15(c.x)}, {q15(a.y), q15(b.y), q15(c.y)}, {a.z, b.z, c.z}, 0});
   }
   // Adds a triangle with its vertices in random order.
   void add_permuted(Point a, Point b, Point c) {
@@ -110,7 +118,7 @@ class ListMaker {
 };
 
 void uniform(ListMaker& m) {
-  const std::int32_t beyond = m.between(0, 20) * kSub;
+  const std::int32_t beyond = m.between(0, 20) * m.pixel;
   while (!m.full()) {
     const Point a = m.over_image(beyond), b = m.over_image(beyond);
     m.add(a, b, m.over_image(beyond));
@@ -118,7 +126,7 @@ void uniform(ListMaker& m) {
 }
 
 void slivers(ListMaker& m) {
-  const std::int32_t thickness = m.between(1, 40), beyond = m.between(0, 200) * kSub;
+  const std::int32_t thickness = m.stretched(m.between(1, 40)), beyond = m.between(0, 200) * m.pixel;
   while (!m.full()) {
     const Point a = m.over_image(beyond), b = m.over_image(beyond);
     m.add_permuted(a, b, m.near(b, thickness));
@@ -127,8 +135,8 @@ void slivers(ListMaker& m) {
 
 void huge(ListMaker& m) {
   const auto anywhere = [&] {
-    const std::int32_t x = m.between(-kGuardSub, kGuardSub);
-    return m.at(x, m.between(-kGuardSub, kGuardSub));
+    const std::int32_t x = m.between(-m.guard, m.guard);
+    return m.at(x, m.between(-m.guard, m.guard));
   };
   while (!m.full()) {
     const Point a = anywhere(), b = anywhere();
@@ -138,8 +146,8 @@ void huge(ListMaker& m) {
 
 void guard_band(ListMaker& m) {
   const auto extreme = [&](std::int32_t side_sub) {
-    const std::array<std::int32_t, 8> extremes{-kGuardSub, -kGuardSub + 1, kGuardSub,    kGuardSub - 1,
-                                               0,          side_sub,       side_sub / 2, side_sub - 1};
+    const std::array<std::int32_t, 8> extremes{-m.guard, -m.guard + 1, m.guard,      m.guard - 1,
+                                               0,        side_sub,     side_sub / 2, side_sub - 1};
     return extremes[static_cast<std::size_t>(m.between(0, 7))];
   };
   const auto corner = [&] {
@@ -168,12 +176,12 @@ void on_lattice(ListMaker& m, std::int32_t step, std::int32_t phase) {
 }
 
 void lattice(ListMaker& m) {
-  const std::int32_t step = kSub << m.between(0, 6) >> m.between(0, 2);
+  const std::int32_t step = m.pixel << m.between(0, 6) >> m.between(0, 2);
   on_lattice(m, step, 0);
 }
 
 void pixel_centres(ListMaker& m) {
-  on_lattice(m, kSub << m.between(0, 3), kHalf);
+  on_lattice(m, m.pixel << m.between(0, 3), m.pixel / 2);
 }
 
 // Neighbouring cells share vertices; with large jitter they fold over one another.
@@ -191,7 +199,7 @@ void grid(ListMaker& m) {
           m.at(std::int64_t{m.width_sub()} * column / columns, std::int64_t{m.height_sub()} * row / rows),
           jitter);
       if (on_samples)
-        for (std::int32_t* sub : {&p.x, &p.y}) *sub = into_guard_band(sample_sub(*sub >> kSubBits));
+        for (std::int32_t* sub : {&p.x, &p.y}) *sub = m.into_guard_band(m.sample(*sub >> m.bits));
       points.push_back(p);
     }
   for (int row = 0; row < rows; ++row)
@@ -209,7 +217,7 @@ void grid(ListMaker& m) {
 // A fan from one point to a square around it: many edges share one vertex.
 void fan(ListMaker& m) {
   const Point centre = m.over_image();
-  const std::int64_t reach = std::int64_t{1} << m.between(2, 21);
+  const std::int64_t reach = std::int64_t{1} << m.between(2, 13 + m.bits);
   std::vector<std::int32_t> perimeter;  // positions along the square's outline
   for (int i = m.between(3, 62); i > 0; --i) perimeter.push_back(m.between(0, 8 * reach - 1));
   std::sort(perimeter.begin(), perimeter.end());
@@ -228,7 +236,7 @@ void ties(ListMaker& m) {
   m.set_depths(m.one_in(2) ? Depths::few : Depths::ends);
   const std::uint32_t level = m.depth();
   while (!m.full()) {
-    Point a = m.over_image(10 * kSub), b = m.over_image(10 * kSub), c = m.over_image(10 * kSub);
+    Point a = m.over_image(10 * m.pixel), b = m.over_image(10 * m.pixel), c = m.over_image(10 * m.pixel);
     if (m.one_in(2)) a.z = b.z = c.z = level;
     for (int copies = m.between(1, 6); copies > 0; --copies) m.add_permuted(a, b, c);
   }
@@ -238,27 +246,27 @@ void ties(ListMaker& m) {
 // The full depth range within a few pixels, and within less than one.
 void steep(ListMaker& m) {
   m.set_depths(Depths::ends);
-  const std::int32_t reach = kSub << m.between(0, 6) >> m.between(0, 6);
+  const std::int32_t reach = m.pixel << m.between(0, 6) >> m.between(0, 6);
   while (!m.full()) {
-    const Point a = m.over_image(kSub), b = m.near(a, reach);
+    const Point a = m.over_image(m.pixel), b = m.near(a, reach);
     m.add(a, b, m.near(a, reach));
   }
 }
 
 // Few of these triangles cover a sample.
 void cloud(ListMaker& m) {
-  const std::int32_t reach = m.between(1, 700);
+  const std::int32_t reach = m.stretched(m.between(1, 700));
   while (!m.full()) {
-    const Point a = m.over_image(kSub), b = m.near(a, reach);
+    const Point a = m.over_image(m.pixel), b = m.near(a, reach);
     m.add(a, b, m.near(a, reach));
   }
 }
 
 void mixed(ListMaker& m) {
   while (!m.full()) {
-    const std::int32_t reach = 1 << m.between(0, 22);
-    const Point a = m.over_image(kSub), b = m.near(a, reach);
-    m.add_permuted(a, b, m.near(a, m.one_in(2) ? reach : 2 * kSub));
+    const std::int32_t reach = 1 << m.between(0, 14 + m.bits);
+    const Point a = m.over_image(m.pixel), b = m.near(a, reach);
+    m.add_permuted(a, b, m.near(a, m.one_in(2) ? reach : 2 * m.pixel));
   }
 }
 
@@ -266,14 +274,14 @@ void mixed(ListMaker& m) {
 // Triangles with area are mixed in: in a vector, a degenerate one must not displace them.
 void degenerate(ListMaker& m) {
   while (!m.full()) {
-    const Point a = m.over_image(5 * kSub);
-    Point b = m.near(a, kSub << m.between(0, 7));
+    const Point a = m.over_image(5 * m.pixel);
+    Point b = m.near(a, m.pixel << m.between(0, 7));
     Point c = m.at(2 * std::int64_t{b.x} - a.x, 2 * std::int64_t{b.y} - a.y);
     const int kind = m.between(0, 5);
     if (kind == 0) b = c = a;
     if (kind == 1) c = b;
     if (kind == 2) c = m.near(c, 1);
-    if (kind == 3) c = m.near(c, 20 * kSub);
+    if (kind == 3) c = m.near(c, 20 * m.pixel);
     m.add_permuted(a, b, c);
   }
 }
@@ -283,11 +291,11 @@ void degenerate(ListMaker& m) {
 void flat(ListMaker& m) {
   const bool upright = m.one_in(2);
   while (!m.full()) {
-    const Point a = m.over_image(10 * kSub);
-    const std::int64_t rise = m.between(-600, 600);
+    const Point a = m.over_image(10 * m.pixel);
+    const std::int64_t rise = m.stretched(m.between(-600, 600));
     const std::int64_t run = rise * (m.one_in(2) ? m.between(4090, 4102) : m.between(1, 20'000));
     const Point b = upright ? m.at(a.x + rise, a.y + run) : m.at(a.x + run, a.y + rise);
-    m.add_permuted(a, b, m.near(a, m.between(1, 60) * kSub));
+    m.add_permuted(a, b, m.near(a, m.between(1, 60) * m.pixel));
   }
 }
 
@@ -295,12 +303,12 @@ void flat(ListMaker& m) {
 // fuzzer change one vertex.
 void vertices(ListMaker& m) {
   const auto coordinate = [&](int way) {
-    if (way == 0) return m.between(-kGuardSub, kGuardSub);
-    if (way == 1) return m.between(-128 * kSub, 128 * kSub - 1);
+    if (way == 0) return m.between(-m.guard, m.guard);
+    if (way == 1) return m.between(-128 * m.pixel, 128 * m.pixel - 1);
     const std::int32_t n = m.between(-128, 127);
-    if (way == 2) return sample_sub(n);
-    if (way == 3) return n * kSub;  // a pixel's corner
-    return n < 0 ? n + 128 - kGuardSub : kGuardSub - n;
+    if (way == 2) return m.sample(n);
+    if (way == 3) return n * m.pixel;  // a pixel's corner
+    return n < 0 ? n + 128 - m.guard : m.guard - n;
   };
   std::vector<Point> before;
   std::uint32_t z = kDepthHead;
@@ -314,8 +322,8 @@ void vertices(ListMaker& m) {
       const auto most = std::min<std::int64_t>(static_cast<std::int64_t>(before.size()), 256);
       p = before[static_cast<std::size_t>(m.between(0, most - 1))];
       if (way == 6) {
-        p.x = into_guard_band(std::int64_t{p.x} + m.between(-128, 127));
-        p.y = into_guard_band(std::int64_t{p.y} + m.between(-128, 127));
+        p.x = m.into_guard_band(std::int64_t{p.x} + m.between(-128, 127));
+        p.y = m.into_guard_band(std::int64_t{p.y} + m.between(-128, 127));
       } else if (way == 7) {  // an edge along an axis
         std::int32_t& moved = m.one_in(2) ? p.x : p.y;
         moved = coordinate(1);
@@ -370,11 +378,11 @@ std::span<const std::string_view> triangle_families() {
 }
 
 std::vector<ScreenTriangle> adversarial(std::string_view family, int count, int width, int height,
-                                        const Numbers& numbers) {
+                                        const Numbers& numbers, int subpixel_bits) {
   const auto found = std::ranges::find(kFamilies, family, &TriangleFamily::name);
   if (found == kFamilies.end())
     throw std::invalid_argument("unknown family of triangles: " + std::string(family));
-  ListMaker maker(count, width, height, numbers);
+  ListMaker maker(count, width, height, subpixel_bits, numbers);
   while (!maker.full()) {
     maker.set_any_depths();
     found->add(maker);
@@ -383,9 +391,10 @@ std::vector<ScreenTriangle> adversarial(std::string_view family, int count, int 
 }
 
 std::vector<ScreenTriangle> adversarial(std::string_view family, int count, int width, int height,
-                                        std::uint64_t seed) {
+                                        std::uint64_t seed, int subpixel_bits) {
   Random random(seed);
-  return adversarial(family, count, width, height, [&](std::uint64_t end) { return random.below(end); });
+  return adversarial(
+      family, count, width, height, [&](std::uint64_t end) { return random.below(end); }, subpixel_bits);
 }
 
 }  // namespace edgewise::lab

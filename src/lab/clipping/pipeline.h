@@ -85,8 +85,8 @@ inline void emit(std::span<const Projected> polygon, std::uint32_t payload, bool
     const std::size_t corners[3] = {0, i - 1, i};
     for (int k = 0; k < 3; ++k) {
       const Projected& p = polygon[corners[k]];
-      t.x_sub[k] = snap(p.x_px);
-      t.y_sub[k] = snap(p.y_px);
+      t.x_q15[k] = snap(p.x_px);
+      t.y_q15[k] = snap(p.y_px);
       t.z[k] = quantize_depth(p.z01);
     }
     t.payload = payload;

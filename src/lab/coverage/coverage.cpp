@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/grid.h"
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
 #include "lab/coverage/draw_in_sets.h"
@@ -36,8 +37,8 @@ void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Win
 }
 
 // Rule 2; the current rounding mode is half to even.
-std::int32_t to_sub(float px) {
-  return static_cast<std::int32_t>(std::nearbyint(double{px} * contract::kSub));
+std::int32_t to_q15(float px) {
+  return static_cast<std::int32_t>(std::nearbyint(double{px} * Coarse::kSub)) * (1 << Coarse::kSpareBits);
 }
 
 CoverageMethod make_from(const BackendInfo& backend, bool fills) {
@@ -46,7 +47,7 @@ CoverageMethod make_from(const BackendInfo& backend, bool fills) {
   return {
       {backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
        true},
-      {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true, .snap_bits = contract::kSubBits},
+      {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true, .snap_bits = Coarse::kSubBits},
       [&backend](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
         canvas.backend(backend.name, backend.make).draw(input.snapped, canvas.frame.view(), {0}, execution);
       },
@@ -114,11 +115,11 @@ std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, W
   std::vector<ScreenTriangle> list(triangles.begin(), triangles.end());
   for (std::uint32_t index = 0; ScreenTriangle & t : list) {
     for (int i = 0; i < 3; ++i) {
-      const std::int64_t x = t.x_sub[i] - std::int64_t{window.x0} * contract::kSub,
-                         y = t.y_sub[i] - std::int64_t{window.y0} * contract::kSub;
-      if (std::max(std::abs(x), std::abs(y)) > contract::kGuardSub)
+      const std::int64_t x = t.x_q15[i] - std::int64_t{window.x0} * contract::kPixel_q15,
+                         y = t.y_q15[i] - std::int64_t{window.y0} * contract::kPixel_q15;
+      if (std::max(std::abs(x), std::abs(y)) > contract::kGuard_q15)
         throw std::invalid_argument("triangle " + std::to_string(index) + " lies beyond the guard band");
-      t.x_sub[i] = static_cast<std::int32_t>(x), t.y_sub[i] = static_cast<std::int32_t>(y);
+      t.x_q15[i] = static_cast<std::int32_t>(x), t.y_q15[i] = static_cast<std::int32_t>(y);
     }
     t.payload = index++;
   }
@@ -140,8 +141,8 @@ std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles) {
   std::vector<ScreenTriangle> result(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      result[i].x_sub[k] = to_sub(triangles[i].at.x_px[k]);
-      result[i].y_sub[k] = to_sub(triangles[i].at.y_px[k]);
+      result[i].x_q15[k] = to_q15(triangles[i].at.x_px[k]);
+      result[i].y_q15[k] = to_q15(triangles[i].at.y_px[k]);
       result[i].z[k] = quantize_depth(triangles[i].at.z01[k]);
     }
     result[i].payload = triangles[i].payload;

@@ -17,12 +17,12 @@ std::unique_ptr<Backend> make_engine(EngineArithmetic arithmetic) {
 namespace {
 
 // Whole blocks of 4 x 4 px are tested, so wrong pixels may lie beside the box.
-constexpr std::int32_t kBeside = 4 * contract::kSub;
+constexpr std::int32_t kBeside = 4 * contract::kPixel_q15;
 
 // A triangle with the same bounding box, widened by kBeside.
 ScreenTriangle with_wider_box(const ScreenTriangle& t) {
-  const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
-  const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
+  const auto [min_x, max_x] = std::minmax({t.x_q15[0], t.x_q15[1], t.x_q15[2]});
+  const auto [min_y, max_y] = std::minmax({t.y_q15[0], t.y_q15[1], t.y_q15[2]});
   return {{min_x - kBeside, max_x + kBeside, max_x}, {min_y - kBeside, max_y + kBeside, max_y}, {}, 0};
 }
 

@@ -17,6 +17,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/grid.h"
 #include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 #include "raster/edges/tile_setup-inl.h"
@@ -36,7 +37,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Bits below those of a sub-unit.
 template <typename T>
-constexpr int kFinerBits = std::is_same_v<T, std::int64_t> ? 12 - contract::kSubBits : 0;
+constexpr int kFinerBits = std::is_same_v<T, std::int64_t> ? 12 - Coarse::kSubBits : 0;
 
 // a b, for 64-bit integers only if a and b fit 32 bits: few targets multiply more at once.
 template <class DF>
@@ -96,7 +97,7 @@ struct WideNumbers {
     return each([&](int i) { return hn::Sub(a.half[i], b.half[i]); });
   }
   static HWY_INLINE Vector times(V pixels, Value step) {
-    if constexpr (std::is_integral_v<T>) pixels = hn::ShiftLeft<contract::kSubBits + kFinerBits<T>>(pixels);
+    if constexpr (std::is_integral_v<T>) pixels = hn::ShiftLeft<Coarse::kSubBits + kFinerBits<T>>(pixels);
     return each([&](int i) { return product_of(Half{}, widened(pixels, i), hn::Set(Half{}, step)); });
   }
   static HWY_INLINE Vector four_times(const Vector& v) {
@@ -141,15 +142,16 @@ struct OtherNumbers : Numbers {
   static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
     // The area was rounded down.
     return static_cast<double>(range) >=
-           (twice_area_px2 + 1.0) * (1 << 2 * (contract::kSubBits + kFinerBits<Value>));
+           (twice_area_px2 + 1.0) * (1 << 2 * (Coarse::kSubBits + kFinerBits<Value>));
   }
 
   // As in ContractNumbers.
-  static HWY_INLINE std::uint32_t set_up(const TileTask& task, const TriangleLanes64& t, const Area& area,
-                                         const BlockBoxLanes& box, EdgeBatch<Value> (&out)[3], int k) {
+  static HWY_INLINE std::uint32_t set_up(const TileTask& task, const TriangleLanes64<Coarse>& t,
+                                         const Area& area, const BlockBoxLanes& box,
+                                         EdgeBatch<Value> (&out)[3], int k) {
     const V32 flip = lower(area.flip);
-    const V32 x0 = set32(kRebased ? task.x0 * contract::kSub : 0),
-              y0 = set32(kRebased ? task.y0 * contract::kSub : 0);
+    const V32 x0 = set32(kRebased ? task.x0 * Coarse::kSub : 0),
+              y0 = set32(kRebased ? task.y0 * Coarse::kSub : 0);
     std::uint32_t kept = ~0u;
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
@@ -185,9 +187,9 @@ struct OtherNumbers : Numbers {
   }
   static HWY_INLINE Vec in_px(Vec v) {
     if constexpr (std::is_integral_v<Value>)
-      return hn::ShiftLeft<contract::kSubBits + kFinerBits<Value>>(v);
+      return hn::ShiftLeft<Coarse::kSubBits + kFinerBits<Value>>(v);
     else
-      return hn::Mul(v, hn::Set(Tag{}, Value{contract::kSub}));
+      return hn::Mul(v, hn::Set(Tag{}, Value{Coarse::kSub}));
   }
   // Steps of 64-bit integers fit 32 bits: times() counts their units.
   static HWY_INLINE Vec step(Vec v) {

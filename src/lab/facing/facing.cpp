@@ -54,8 +54,8 @@ int first_pixel(const mpq_class& px, int limit) {
   if (up <= 0) return 0;
   return up >= limit ? limit : static_cast<int>(up.get_si());
 }
-int first_pixel(std::int64_t sub, int limit) {
-  const std::int64_t up = (sub - contract::kHalf + contract::kSub - 1) >> contract::kSubBits;
+int first_pixel(std::int64_t q15, int limit) {
+  const std::int64_t up = (q15 - contract::kHalf_q15 + contract::kPixel_q15 - 1) >> contract::kFineBits;
   return static_cast<int>(std::clamp<std::int64_t>(up, 0, limit));
 }
 
@@ -63,11 +63,11 @@ mpq_class sample(const Point&, int pixel) {
   return mpq_class(2 * pixel + 1, 2);
 }
 std::int64_t sample(const SnappedPoint&, int pixel) {
-  return contract::sample_sub(pixel);
+  return contract::sample_q15(pixel);
 }
 
-// The x at which the edge from a to b, which must not be horizontal, crosses height y. In sub-units it is
-// rounded up, which does not change first_pixel().
+// The x at which the edge from a to b, which must not be horizontal, crosses height y. In 2^-15 px it
+// is rounded up, which does not change first_pixel().
 mpq_class crossing(const Point& a, const Point& b, const mpq_class& y) {
   return a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y);
 }

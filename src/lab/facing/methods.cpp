@@ -40,8 +40,8 @@ const std::array<FacingMethod, 7> kMethods{{
          ScreenTriangle t{};
          for (int i = 0; i < 3; ++i) {
            const glm::vec2 p = project(v[i]);
-           t.x_sub[i] = snap(p.x);
-           t.y_sub[i] = snap(p.y);
+           t.x_q15[i] = snap(p.x);
+           t.y_q15[i] = snap(p.y);
          }
          return contract::signed_area(t) > 0;
        });

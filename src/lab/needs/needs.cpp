@@ -1,5 +1,6 @@
 #include "lab/needs/needs.h"
 
+#include "core/grid.h"
 #include "edgewise/contract.h"
 
 namespace edgewise::lab {
@@ -17,7 +18,7 @@ void Needs::add(const Drawable& drawable, FrontendOptions options) {
 
 std::vector<Question> Needs::edges() const {
   std::vector<Question> all = coverage_.questions();
-  all.push_back(ranges_.edge_values(contract::kSubBits));
+  all.push_back(ranges_.edge_values(Coarse::kSubBits));
   return all;
 }
 

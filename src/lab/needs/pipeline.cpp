@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/grid.h"
 #include "edgewise/contract.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
@@ -75,7 +76,7 @@ Depths depths_of(const Pipeline& pipeline) {
 std::int32_t snap_to(float px, int bits) {
   constexpr float kLimit = contract::kMaxImageSide;
   return edgewise::round_half_even(std::clamp(px, -kLimit, kLimit) * static_cast<float>(1 << bits)) *
-         (1 << (contract::kSubBits - bits));
+         (1 << (contract::kFineBits - bits));
 }
 
 double area_px(const VisibilityTriangle& t) {
@@ -223,8 +224,8 @@ class Assembly {
   void emit(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c, std::uint32_t id,
             bool two_sided) {
     if (((a.snapped.outside | b.snapped.outside | c.snapped.outside) & kNowhere) != 0) return;
-    const VisibilityTriangle t{{{a.snapped.x_sub, b.snapped.x_sub, c.snapped.x_sub},
-                                {a.snapped.y_sub, b.snapped.y_sub, c.snapped.y_sub},
+    const VisibilityTriangle t{{{a.snapped.x_q15, b.snapped.x_q15, c.snapped.x_q15},
+                                {a.snapped.y_q15, b.snapped.y_q15, c.snapped.y_q15},
                                 {a.snapped.z, b.snapped.z, c.snapped.z},
                                 id},
                                {a.x_px, b.x_px, c.x_px},
@@ -291,7 +292,7 @@ Question levels_of(Stage stage) {
       return depths;
     }
     case kSubpixel:
-      return bits_question("subpixel bits", 0, contract::kSubBits);
+      return bits_question("subpixel bits", 0, Coarse::kSubBits);
     default:
       return question(std::string(name_of(static_cast<ViewPlane>(stage))), kPlaneLevels);
   }

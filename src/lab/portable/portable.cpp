@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "core/grid.h"
 #include "core/nearest_name.h"
 #include "core/parallel.h"
 #include "edgewise/contract.h"
@@ -181,8 +182,8 @@ void check(std::span<const PortableTriangle> triangles, int width, int height, c
   if (width < 1 || height < 1 || width > contract::kMaxImageSide || height > contract::kMaxImageSide)
     throw std::invalid_argument("the size of a picture must be 1 to " +
                                 std::to_string(contract::kMaxImageSide) + " px on each side");
-  if (model.subpixel_bits < 1 || model.subpixel_bits > contract::kSubBits)
-    throw std::invalid_argument("subpixel bits must be 1 to " + std::to_string(contract::kSubBits) +
+  if (model.subpixel_bits < 1 || model.subpixel_bits > Coarse::kSubBits)
+    throw std::invalid_argument("subpixel bits must be 1 to " + std::to_string(Coarse::kSubBits) +
                                 ": the library draws no more yet");
   if (model.transform_ulps < 0 || model.transform_ulps > 1000)
     throw std::invalid_argument("units in the last place must be 0 to 1000");

@@ -109,10 +109,10 @@ Triangles ours(const SceneTruth& truth, std::optional<int> bits) {
   for (std::size_t i = 0; i < screen.size(); ++i) {
     if (truth.facing(screen[i].payload) == 0) continue;
     const UnsnappedTriangle& at = frontend.unsnapped()[i];
-    const auto px = [&](const std::int32_t (&sub)[3], const float (&unsnapped)[3]) {
-      return [&](std::size_t k) { return bits ? sub[k] / double{contract::kSub} : double{unsnapped[k]}; };
+    const auto px = [&](const std::int32_t (&q15)[3], const float (&unsnapped)[3]) {
+      return [&](std::size_t k) { return bits ? q15[k] / double{contract::kPixel_q15} : double{unsnapped[k]}; };
     };
-    append(list, 3, screen[i].payload, px(screen[i].x_sub, at.x_px), px(screen[i].y_sub, at.y_px));
+    append(list, 3, screen[i].payload, px(screen[i].x_q15, at.x_px), px(screen[i].y_q15, at.y_px));
   }
   return list;
 }

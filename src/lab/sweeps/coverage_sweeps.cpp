@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/grid.h"
 #include "core/random.h"
 #include "lab/coverage/pixel_changes.h"
 #include "lab/coverage/score.h"
@@ -33,7 +34,7 @@ void add_picture(Measured& sums, const std::vector<FloatTriangle>& triangles, Wi
 enum Grid { kOffGrid, kOnGrid };
 
 double on_grid(double px, Grid grid) {
-  return grid == kOffGrid ? px : std::nearbyint(px * contract::kSub) / contract::kSub;
+  return grid == kOffGrid ? px : std::nearbyint(px * Coarse::kSub) / Coarse::kSub;
 }
 
 // A jittered grid of cells of 8 px, so small that float products are exact near the origin. Rounds the

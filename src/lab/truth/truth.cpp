@@ -38,7 +38,7 @@ int sign_of(Wide v) {
 
 int snapped_side(const ScreenTriangle& t, std::size_t from, std::size_t to, Wide sx, Wide sy) {
   return sign_of(
-      cross(Wide{t.x_sub[from]}, Wide{t.y_sub[from]}, Wide{t.x_sub[to]}, Wide{t.y_sub[to]}, sx, sy));
+      cross(Wide{t.x_q15[from]}, Wide{t.y_q15[from]}, Wide{t.x_q15[to]}, Wide{t.y_q15[to]}, sx, sy));
 }
 
 constexpr double sample_px(int pixel) {
@@ -76,7 +76,7 @@ bool reaches_rows(const Y (&y)[3], double units_per_px, Window rows) {
          static_cast<double>(low) <= rows.y1() * units_per_px;
 }
 bool reaches_rows(const ScreenTriangle& t, Window rows) {
-  return reaches_rows(t.y_sub, 256.0, rows);
+  return reaches_rows(t.y_q15, 32768.0, rows);
 }
 bool reaches_rows(const FloatTriangle& t, Window rows) {
   return reaches_rows(t.at.y_px, 1.0, rows);
@@ -107,11 +107,11 @@ PixelBounds pixels_between(double x0, double y0, double x1, double y1, Window wi
 
 SnappedTruth::SnappedTruth(const ScreenTriangle& triangle)
     : triangle_(triangle),
-      rule_(triangle.y_sub, snapped_side(triangle, 0, 1, triangle.x_sub[2], triangle.y_sub[2])) {}
+      rule_(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])) {}
 
 bool SnappedTruth::accepts(std::size_t edge, int px, int py) const {
   return rule_.accepts(
-      edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 256 + 128, Wide{py} * 256 + 128));
+      edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384, Wide{py} * 32768 + 16384));
 }
 
 double SnappedTruth::crossing(std::size_t edge, int py) const {
@@ -128,12 +128,13 @@ bool SnappedTruth::covers(int px, int py) const {
 
 mpq_class SnappedTruth::depth(int px, int py) const {
   const double z[3] = {double(triangle_.z[0]), double(triangle_.z[1]), double(triangle_.z[2])};
-  return plane_of<mpq_class>(triangle_.x_sub, triangle_.y_sub, z, sample_px(px) * 256, sample_px(py) * 256);
+  return plane_of<mpq_class>(triangle_.x_q15, triangle_.y_q15, z, sample_px(px) * 32768,
+                             sample_px(py) * 32768);
 }
 
 Ball SnappedTruth::depth_estimate(int px, int py) const {
   const double z[3] = {double(triangle_.z[0]), double(triangle_.z[1]), double(triangle_.z[2])};
-  return plane_of<Ball>(triangle_.x_sub, triangle_.y_sub, z, sample_px(px) * 256, sample_px(py) * 256);
+  return plane_of<Ball>(triangle_.x_q15, triangle_.y_q15, z, sample_px(px) * 32768, sample_px(py) * 32768);
 }
 
 FloatTruth::FloatTruth(const double (&x_px)[3], const double (&y_px)[3])

@@ -88,8 +88,8 @@ class SnappedTruth {
   Ball depth_estimate(int px, int py) const;
   static constexpr double kDepthError = 0.0;
 
-  double x_px(std::size_t vertex) const { return triangle_.x_sub[vertex] / 256.0; }
-  double y_px(std::size_t vertex) const { return triangle_.y_sub[vertex] / 256.0; }
+  double x_px(std::size_t vertex) const { return triangle_.x_q15[vertex] / 32768.0; }
+  double y_px(std::size_t vertex) const { return triangle_.y_q15[vertex] / 32768.0; }
 
  private:
   ScreenTriangle triangle_;

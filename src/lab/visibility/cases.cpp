@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <numeric>
 
+#include "core/grid.h"
 #include "core/trigonometry.h"
 #include "edgewise/contract.h"
 #include "frontend/fixed.h"
@@ -45,8 +46,8 @@ class Builder {
       const glm::dvec3 p = corners[i];
       t.x_px[i] = static_cast<float>(scene_.width / 2.0 + scene_.height * p.x / p.z);
       t.y_px[i] = static_cast<float>(scene_.height / 2.0 + scene_.height * p.y / p.z);
-      t.screen.x_sub[i] = snap(t.x_px[i]);
-      t.screen.y_sub[i] = snap(t.y_px[i]);
+      t.screen.x_q15[i] = snap(t.x_px[i]);
+      t.screen.y_q15[i] = snap(t.y_px[i]);
       t.screen.z[i] = front_end_depth(p.z, scene_.near_z, scene_.far_z);
       t.view_z[i] = p.z;
     }
@@ -163,15 +164,17 @@ VisibilityScene slivers(double aspect) {
       if (std::gcd(dx, dy) != 1) continue;
       // The left edge runs through samples, so that slivers of any width cover some.
       const int steps = kReach / std::max(std::abs(dx), dy);
-      const double width_sub = std::sqrt(dx * dx + dy * dy) * steps * kSub / aspect;
-      const std::int32_t x = sample_sub(kSide / 2 + steps * dx), y = sample_sub(kSide / 2 + steps * dy);
-      const auto third = x + std::max(1, static_cast<std::int32_t>(std::min(width_sub, kGuardSub / 2.0)));
+      const double width_sub = std::sqrt(dx * dx + dy * dy) * steps * Coarse::kSub / aspect;
+      const std::int32_t x = sample_q15(kSide / 2 + steps * dx), y = sample_q15(kSide / 2 + steps * dy);
+      const auto third =
+          x + (std::max(1, static_cast<std::int32_t>(std::min(width_sub, Coarse::kGuardSub / 2.0)))
+               << Coarse::kSpareBits);
       VisibilityTriangle t{
-          {{sample_sub(kSide / 2), x, third}, {sample_sub(kSide / 2), y, y}, {}, 0}, {}, {}, {10, 10, 50}};
+          {{sample_q15(kSide / 2), x, third}, {sample_q15(kSide / 2), y, y}, {}, 0}, {}, {}, {10, 10, 50}};
       for (int i = 0; i < 3; ++i) {
         t.screen.z[i] = front_end_depth(t.view_z[i], near_z, far_z);
-        t.x_px[i] = static_cast<float>(t.screen.x_sub[i]) / kSub;
-        t.y_px[i] = static_cast<float>(t.screen.y_sub[i]) / kSub;
+        t.x_px[i] = static_cast<float>(t.screen.x_q15[i]) / kPixel_q15;
+        t.y_px[i] = static_cast<float>(t.screen.y_q15[i]) / kPixel_q15;
       }
       scene.faces.push_back({static_cast<std::uint32_t>(scene.triangles.size()), 1});
       scene.triangles.push_back(t);

@@ -44,25 +44,26 @@ template <typename Real>
 class GradientPlane {
  public:
   GradientPlane(const ScreenTriangle& t, Real v0, Real v1, Real v2)
-      : x0_sub_(t.x_sub[0]), y0_sub_(t.y_sub[0]), v0_(v0) {
-    const auto px = [](std::int32_t sub) { return static_cast<Real>(sub) / Real{contract::kSub}; };
-    const Real x1 = px(t.x_sub[1] - x0_sub_), x2 = px(t.x_sub[2] - x0_sub_);
-    const Real y1 = px(t.y_sub[1] - y0_sub_), y2 = px(t.y_sub[2] - y0_sub_);
-    const Real area = static_cast<Real>(contract::signed_area(t)) / Real{contract::kSub * contract::kSub};
+      : x0_q15_(t.x_q15[0]), y0_q15_(t.y_q15[0]), v0_(v0) {
+    const auto px = [](std::int32_t q15) { return static_cast<Real>(q15) / Real{contract::kPixel_q15}; };
+    const Real x1 = px(t.x_q15[1] - x0_q15_), x2 = px(t.x_q15[2] - x0_q15_);
+    const Real y1 = px(t.y_q15[1] - y0_q15_), y2 = px(t.y_q15[2] - y0_q15_);
+    const Real area =
+        static_cast<Real>(contract::signed_area(t)) / Real{contract::kPixel_q15 * contract::kPixel_q15};
     gx_ = ((v1 - v0) * y2 - (v2 - v0) * y1) / area;
     gy_ = ((v2 - v0) * x1 - (v1 - v0) * x2) / area;
   }
   void row(int x, int y) {
     x_begin_ = x;
-    row_ = v0_ + gx_ * px_from(x, x0_sub_) + gy_ * px_from(y, y0_sub_);
+    row_ = v0_ + gx_ * px_from(x, x0_q15_) + gy_ * px_from(y, y0_q15_);
   }
   Real at(int x) const { return row_ + gx_ * static_cast<Real>(x - x_begin_); }
 
  private:
-  static Real px_from(int pixel, std::int32_t sub) {
-    return static_cast<Real>(contract::sample_sub(pixel) - sub) / Real{contract::kSub};
+  static Real px_from(int pixel, std::int32_t q15) {
+    return static_cast<Real>(contract::sample_q15(pixel) - q15) / Real{contract::kPixel_q15};
   }
-  std::int32_t x0_sub_, y0_sub_;
+  std::int32_t x0_q15_, y0_q15_;
   Real v0_, gx_, gy_, row_ = 0;
   int x_begin_ = 0;
 };
@@ -77,7 +78,7 @@ Real depth01(Real view_z, const VisibilityScene& scene) {
 inline double magnification(const ScreenTriangle& t) {
   double longest = 0;
   for (int i = 0; i < 3; ++i) {
-    const double dx = t.x_sub[i] - t.x_sub[(i + 1) % 3], dy = t.y_sub[i] - t.y_sub[(i + 1) % 3];
+    const double dx = t.x_q15[i] - t.x_q15[(i + 1) % 3], dy = t.y_q15[i] - t.y_q15[(i + 1) % 3];
     longest = std::max(longest, dx * dx + dy * dy);
   }
   return std::max(1.0, longest / std::abs(static_cast<double>(contract::signed_area(t))));

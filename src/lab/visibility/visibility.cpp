@@ -18,8 +18,8 @@ class Plane {
  public:
   Plane(const VisibilityTriangle& t, bool snapped) {
     for (int i = 0; i < 3; ++i) {
-      x_[i] = snapped ? t.screen.x_sub[i] / double{contract::kSub} : double{t.x_px[i]};
-      y_[i] = snapped ? t.screen.y_sub[i] / double{contract::kSub} : double{t.y_px[i]};
+      x_[i] = snapped ? t.screen.x_q15[i] / double{contract::kPixel_q15} : double{t.x_px[i]};
+      y_[i] = snapped ? t.screen.y_q15[i] / double{contract::kPixel_q15} : double{t.y_px[i]};
       z_[i] = t.view_z[i];
     }
   }

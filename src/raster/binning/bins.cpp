@@ -65,8 +65,8 @@ inline void Bins::Slice::bin(const ScreenTriangle& triangle, const CellBox& box,
     const Edge edge = make_edge(oriented, i);
     row_value[i] = edge.at(column0 * cell_w + (edge.a > 0 ? cell_w - 1 : 0),
                            row0 * cell_h + (edge.b > 0 ? cell_h - 1 : 0));
-    step_x[i] = std::int64_t{edge.a} * kSub * cell_w;
-    step_y[i] = std::int64_t{edge.b} * kSub * cell_h;
+    step_x[i] = std::int64_t{edge.a} * kPixel_q15 * cell_w;
+    step_y[i] = std::int64_t{edge.b} * kPixel_q15 * cell_h;
   }
   for (int row = row0; row <= row1; ++row) {
     std::int64_t value[3] = {row_value[0], row_value[1], row_value[2]};

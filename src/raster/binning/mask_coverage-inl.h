@@ -43,7 +43,7 @@ struct Covering {
   alignas(64) std::int32_t area[kCapacity], from_x[kCapacity], from_y[kCapacity], anchor_z[kCapacity];
 };
 
-HWY_INLINE hn::Mask<D> is_small(const TriangleLanes& t, const BoxLanes& box) {
+HWY_INLINE hn::Mask<D> is_small(const GridTriangles<Coarse>& t, const BoxLanes& box) {
   const D d;
   const V side = hn::Set(d, kMaskSide), longest = hn::Set(d, kMaxSmallExtent);
   // Differences of coordinates fit 32 bits (rule 3).
@@ -128,7 +128,7 @@ class Crossings {
 // The sides of small triangles from vertex 0 on, turned so that the area is positive (rule 4).
 struct SmallSides {
   V dx1, dx2, dy1, dy2, area;
-  HWY_INLINE explicit SmallSides(const TriangleLanes& t) {
+  HWY_INLINE explicit SmallSides(const GridTriangles<Coarse>& t) {
     const auto minus = [](V a, V b) { return hn::Sub(a, b); };
     const V x1 = minus(t.x[1], t.x[0]), x2 = minus(t.x[2], t.x[0]);
     const V y1 = minus(t.y[1], t.y[0]), y2 = minus(t.y[2], t.y[0]);
@@ -150,17 +150,17 @@ HWY_INLINE V first_rows(V count) {
 }
 
 // The samples that small triangles cover: the upper and the lower four rows of their boxes.
-HWY_INLINE void find_covered(const TriangleLanes& t, const SmallSides& sides, const BoxLanes& box,
+HWY_INLINE void find_covered(const GridTriangles<Coarse>& t, const SmallSides& sides, const BoxLanes& box,
                              hn::Mask<D> small, V (&covered)[2]) {
   const D d;
   const auto& [dx1, dx2, dy1, dy2, area] = sides;
-  const V sx = sample(box.x0), sy = sample(box.y0);
+  const V sx = sample<Coarse>(box.x0), sy = sample<Coarse>(box.y0);
   const V a[3] = {hn::Neg(dy1), hn::Sub(dy1, dy2), dy2}, b[3] = {dx1, hn::Sub(dx2, dx1), hn::Neg(dx2)};
   Crossings edge[3];
   for (int i = 0; i < 3; ++i) {
     const V bias = hn::IfThenZeroElse(is_top_left(a[i], b[i]), hn::Set(d, -1));
     const V first = hn::Add(hn::Mul(a[i], hn::Sub(sx, t.x[i])), hn::Mul(b[i], hn::Sub(sy, t.y[i])));
-    edge[i] = Crossings(a[i], b[i], hn::ShiftRight<kSubBits>(hn::Add(first, bias)));  // rule 5
+    edge[i] = Crossings(a[i], b[i], hn::ShiftRight<Coarse::kSubBits>(hn::Add(first, bias)));  // rule 5
   }
   const V height = hn::Sub(box.y1, box.y0), upper_rows = hn::Min(height, hn::Set(d, 4));
   const int rows = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, height)));
@@ -178,8 +178,8 @@ HWY_INLINE void find_covered(const TriangleLanes& t, const SmallSides& sides, co
 
 // Appends the triangles of a vector that are small and cover a sample. Bit i of the result is set if triangle
 // i does. `index`: of the first, in the packet.
-HWY_INLINE std::uint32_t append_covering(const TriangleLanes& t, const BoxLanes& box, hn::Mask<D> small,
-                                         int index, Covering& out) {
+HWY_INLINE std::uint32_t append_covering(const GridTriangles<Coarse>& t, const BoxLanes& box,
+                                         hn::Mask<D> small, int index, Covering& out) {
   const V zero = hn::Zero(D{});
   const SmallSides sides(t);
   V covered[2];
@@ -188,7 +188,7 @@ HWY_INLINE std::uint32_t append_covering(const TriangleLanes& t, const BoxLanes&
       hn::And(hn::And(small, hn::Gt(sides.area, zero)), hn::Ne(hn::Or(covered[0], covered[1]), zero));
   const AnchorLanes anchor(t.x, t.y, t.z);
   const auto from_anchor = [](V px, V anchor_sub) {
-    return hn::Sub(sample(hn::And(px, hn::Set(D{}, -kDepthCell))), anchor_sub);
+    return hn::Sub(sample<Coarse>(hn::And(px, hn::Set(D{}, -kDepthCell))), anchor_sub);
   };
   const Selection select(covers);
   const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), D{}, list + out.count); };

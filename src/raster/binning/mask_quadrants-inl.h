@@ -36,10 +36,11 @@ struct Planes {
     const auto bits = [&](const std::int64_t(&list)[Covering::kCapacity]) {
       return static_cast<std::uint64_t>(list[k]);
     };
-    constexpr std::uint64_t kCell = std::uint64_t{kDepthCell} << kSubBits;
+    constexpr std::uint64_t kCell = std::uint64_t{kDepthCell} << Coarse::kSubBits;
     const std::uint64_t here = bits(start),
                         there = here + bits(gx) * (right * kCell) + bits(gy) * (below * kCell);
-    return static_cast<std::uint32_t>(there >> 24) - static_cast<std::uint32_t>(here >> 24);
+    return static_cast<std::uint32_t>(there >> Coarse::kPlaneBits) -
+           static_cast<std::uint32_t>(here >> Coarse::kPlaneBits);
   }
 };
 
@@ -49,10 +50,10 @@ inline void find_planes(const ScreenTriangle* triangles, const Covering& from, P
     const auto read = [&](const std::int32_t* list) {
       return hn::PromoteTo(D64{}, hn::LoadU(hn::Rebind<std::int32_t, D64>{}, list + k));
     };
-    const DepthLanes depth =
-        depth_lanes({lower(read(from.dx1)), lower(read(from.dx2)), lower(read(from.dy1)),
-                     lower(read(from.dy2)), lower(read(from.dz1)), lower(read(from.dz2)), read(from.area),
-                     lower(read(from.from_x)), lower(read(from.from_y)), lower(read(from.anchor_z))});
+    const DepthLanes<Coarse> depth = depth_lanes<Coarse>(
+        {lower(read(from.dx1)), lower(read(from.dx2)), lower(read(from.dy1)), lower(read(from.dy2)),
+         lower(read(from.dz1)), lower(read(from.dz2)), read(from.area), lower(read(from.from_x)),
+         lower(read(from.from_y)), lower(read(from.anchor_z))});
     store(depth.x, out.zx + k), store(depth.y, out.zy + k);
     hn::StoreU(depth.gx, d, out.gx + k), hn::StoreU(depth.gy, d, out.gy + k);
     hn::StoreU(depth.start, d, out.start + k);
@@ -61,11 +62,12 @@ inline void find_planes(const ScreenTriangle* triangles, const Covering& from, P
       const int at = k + std::countr_zero(left);
       const DepthPlane plane = make_depth(orient(triangles[from.index[at]]));
       const auto pixels = [](std::int32_t px) {
-        return static_cast<std::uint64_t>(px & -kDepthCell) << kSubBits;
+        return static_cast<std::uint64_t>(px & -kDepthCell) << Coarse::kSubBits;
       };
       out.gx[at] = static_cast<std::int64_t>(plane.gx), out.gy[at] = static_cast<std::int64_t>(plane.gy);
-      out.start[at] = static_cast<std::int64_t>(plane.origin + plane.gx * pixels(from.x0[at]) +
-                                                plane.gy * pixels(from.y0[at]));
+      out.start[at] =
+          static_cast<std::int64_t>((plane.origin >> Coarse::kSpareBits) + plane.gx * pixels(from.x0[at]) +
+                                    plane.gy * pixels(from.y0[at]));
       out.zx[at] = static_cast<std::int32_t>(plane.zx), out.zy[at] = static_cast<std::int32_t>(plane.zy);
     }
   }
@@ -143,7 +145,7 @@ inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const
              {unsigned_bits(read(from.covered[0])), unsigned_bits(read(from.covered[1]))}, rows);
     const V payload = read(from.payload), zx = read(planes.zx), zy = read(planes.zy);
     const auto base_at = [&](int at) {  // start has 24 fraction bits
-      return lower(shift_right<24>(hn::LoadU(D64{}, planes.start + at)));
+      return lower(shift_right<Coarse::kPlaneBits>(hn::LoadU(D64{}, planes.start + at)));
     };
     const V base = hn::ConcatEven(d, base_at(k + kLanes64), base_at(k));
     V present = hn::Zero(d);

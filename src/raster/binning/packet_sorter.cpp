@@ -58,8 +58,8 @@ void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool wit
   Covering covering;
   out.boxed = out.masked = 0;
   for (int i = 0; i < kPacket; i += kLanes) {
-    const TriangleLanes t = load_triangles([&](int lane) { return triangles + i + lane; });
-    const BoxLanes box(t.x, t.y, grid.drawn());
+    const GridTriangles<Coarse> t(load_triangles([&](int lane) { return triangles + i + lane; }));
+    const BoxLanes box(t, grid.drawn());
     std::uint32_t boxed = mask_bits(box.filled);
     if (with_masks) {
       const auto small = is_small(t, box);

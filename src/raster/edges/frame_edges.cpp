@@ -23,7 +23,7 @@ using namespace contract;
 // and does not overflow.
 inline std::int32_t in_int32(std::int64_t value) {
   constexpr std::int64_t kLimit = 1 << 30;
-  return static_cast<std::int32_t>(std::clamp(value >> kSubBits, -kLimit, kLimit));
+  return static_cast<std::int32_t>(std::clamp(value >> Coarse::kSubBits, -kLimit, kLimit));
 }
 
 struct FrameEdges : FrameBatch {
@@ -33,11 +33,11 @@ struct FrameEdges : FrameBatch {
   } edge[3];
 
   HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
-    const TriangleLanes64 t = load(task.bins.triangles(), indices);
-    const BoxLanes in_area(t.x, t.y, task.area);
+    const auto t = load<Coarse>(task.bins.triangles(), indices);
+    const BoxLanes in_area(t, task.area);
     const Area area = area_of(t);
     for (int i = 0; i < 3; ++i) {
-      const EdgeLanes lanes(t, area, i, sample(in_area.x0), sample(in_area.y0));
+      const EdgeLanes lanes(t, area, i, sample<Coarse>(in_area.x0), sample<Coarse>(in_area.y0));
       hn::StoreU(lanes.value, D64{}, edge[i].first + k);
       store(lanes.a, edge[i].a + k), store(lanes.b, edge[i].b + k);
     }
@@ -63,7 +63,7 @@ struct FrameEdges : FrameBatch {
     const V z_in_cell = set(depth.in_cell(piece.x0, piece.y0)), cell = hn::Set(d, piece.x0 & -kDepthCell);
     std::int32_t first[3];  // at the piece's first sample
     for (int i = 0; i < 3; ++i)
-      first[i] = in_int32(edge[i].first[k] + std::int64_t{edge[i].a[k]} * kSub * (piece.x0 - x0[k]));
+      first[i] = in_int32(edge[i].first[k] + std::int64_t{edge[i].a[k]} * Coarse::kSub * (piece.x0 - x0[k]));
     for (int x = piece.x0; x < piece.x1; x += kLanes) {
       const int at = vector_from(x, task.area.x1);
       const V px = hn::Add(lane, hn::Set(d, at)), from_first = hn::Sub(px, hn::Set(d, piece.x0));

@@ -77,12 +77,12 @@ HWY_INLINE V32 thrice(V32 v) {
 struct ContractNumbers : Int32Numbers {
   // Whether a value's range over a block, in square pixels, exceeds twice the triangle's area.
   static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
-    return range >> kSubBits > twice_area_px2;
+    return range >> Coarse::kSubBits > twice_area_px2;
   }
 
   // Sets up the edges of a vector of triangles as entries k … An edge that accepts the box becomes the
   // constant 0. Returns the bits of the triangles whose box no edge rejects.
-  static HWY_INLINE std::uint32_t set_up(const TileTask&, const TriangleLanes64& t, const Area& area,
+  static HWY_INLINE std::uint32_t set_up(const TileTask&, const TriangleLanes64<Coarse>& t, const Area& area,
                                          const BlockBoxLanes& box, EdgeBatch<Value> (&out)[3], int k) {
     const V32 zero = hn::Zero(D32{});
     V64 rejected = hn::Zero(D64{});
@@ -92,14 +92,15 @@ struct ContractNumbers : Int32Numbers {
       const V64 growth =
           hn::Add(product(hn::Max(edge.a, zero), box.last_x), product(hn::Max(edge.b, zero), box.last_y));
       const V64 across = hn::Add(product(edge.a, box.last_x), product(edge.b, box.last_y));
-      const V64 largest_in_box = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(growth));
-      const V64 smallest_in_box = hn::Add(edge.value, hn::ShiftLeft<kSubBits>(hn::Sub(across, growth)));
+      const V64 largest_in_box = hn::Add(edge.value, hn::ShiftLeft<Coarse::kSubBits>(growth));
+      const V64 smallest_in_box =
+          hn::Add(edge.value, hn::ShiftLeft<Coarse::kSubBits>(hn::Sub(across, growth)));
       rejected = hn::Or(rejected, largest_in_box);
       const auto accepted = hn::Not(hn::Lt(smallest_in_box, hn::Zero(D64{})));
       const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenZeroElse(accepted, v)); };
       const V32 x = unless_accepted(as64(edge.a)), y = unless_accepted(as64(edge.b));
       store(x, out[i].x + k), store(y, out[i].y + k);
-      store(unless_accepted(shift_right<kSubBits>(edge.value)), out[i].first + k);
+      store(unless_accepted(shift_right<Coarse::kSubBits>(edge.value)), out[i].first + k);
       store(thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero))), out[i].rise + k);
       store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), out[i].range + k);
     }
@@ -125,12 +126,12 @@ struct Batch {
 // Sets up the depths of a vector of triangles as entries k … of the batch. Returns the bits of those whose
 // planes are exact.
 template <class Numbers>
-HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes64& t, const Area& area,
-                                      V32 left, V32 top, const BlockBoxLanes& box, Batch<Numbers>& out,
-                                      int k) {
+HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes64<Coarse>& t,
+                                      const Area& area, V32 left, V32 top, const BlockBoxLanes& box,
+                                      Batch<Numbers>& out, int k) {
   const V32 zero = hn::Zero(D32{});
   const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
-  const DepthLanes depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
+  const DepthLanes<Coarse> depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
   const V32 first = depth.at(hn::Add(left, set32(in_cell_x)), hn::Add(top, set32(in_cell_y)));
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k), store(first, out.depth.first + k);
   store(thrice(hn::Add(hn::Max(depth.x, zero), hn::Max(depth.y, zero))), out.depth_rise + k);
@@ -153,9 +154,9 @@ HWY_INLINE std::uint32_t set_up_depth(const TileTask& task, const TriangleLanes6
 template <class Numbers>
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices,
                                        Batch<Numbers>& out, int k) {
-  const TriangleLanes64 t = load(task.bins->triangles(), indices);
+  const auto t = load<Coarse>(task.bins->triangles(), indices);
   const Area area = area_of(t);
-  const BoxLanes box(t.x, t.y, task.box());
+  const BoxLanes box(t, task.box());
   const auto block = [](V32 px, int first_px) { return hn::ShiftRight<2>(hn::Sub(px, set32(first_px))); };
   const V32 bx0 = block(box.x0, task.x0), bx1 = block(box.x1, task.x0 + 1);
   const V32 by0 = block(box.y0, task.y0), by1 = block(box.y1, task.y0 + 1);
@@ -163,12 +164,13 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   const auto last = [](V32 b0, V32 b1) {
     return hn::Add(hn::ShiftLeft<2>(hn::Sub(b1, b0)), set32(kBlockSide - 1));
   };
-  const BlockBoxLanes blocks{sample(left, task.x0), sample(top, task.y0), last(bx0, bx1), last(by0, by1)};
+  const BlockBoxLanes blocks{sample<Coarse>(left, task.x0), sample<Coarse>(top, task.y0), last(bx0, bx1),
+                             last(by0, by1)};
   const std::uint32_t drawn = may_cover(box, area) & Numbers::set_up(task, t, area, blocks, out.edge, k);
 
   const std::uint32_t exact = set_up_depth(task, t, area, left, top, blocks, out, k);
   store(t.payload, out.payload + k);
-  store(lower(shift_right<2 * kSubBits>(area.value)), out.twice_area_px2 + k);
+  store(lower(shift_right<2 * Coarse::kSubBits>(area.value)), out.twice_area_px2 + k);
   store(bx0, out.bx0 + k), store(by0, out.by0 + k), store(bx1, out.bx1 + k), store(by1, out.by1 + k);
   for (std::uint32_t inexact = drawn & ~exact; inexact != 0; inexact &= inexact - 1) {
     const int lane = std::countr_zero(inexact), at = k + lane;

@@ -1,8 +1,9 @@
-// Rules of the contract in vectors, one triangle per lane of 32 bits.
+// Rules of the contract in vectors, one triangle per lane of 32 bits. G is the grid (core/grid.h).
 #include <hwy/highway.h>
 
 #include <cstdint>
 
+#include "core/grid.h"
 #include "core/lanes-inl.h"
 #include "edgewise/contract.h"
 
@@ -20,6 +21,16 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
+// Triangles whose positions are in sub-units of the grid.
+template <class G>
+struct GridTriangles : TriangleLanes {
+  HWY_INLINE explicit GridTriangles(const TriangleLanes& t) : TriangleLanes(t) {
+    if constexpr (G::kSpareBits > 0)
+      for (int i = 0; i < 3; ++i)
+        x[i] = hn::ShiftRight<G::kSpareBits>(x[i]), y[i] = hn::ShiftRight<G::kSpareBits>(y[i]);
+  }
+};
+
 HWY_INLINE V min_of(const V (&v)[3]) {
   return hn::Min(hn::Min(v[0], v[1]), v[2]);
 }
@@ -31,8 +42,9 @@ HWY_INLINE V flipped(V v, V flip) {
   return hn::Sub(hn::Xor(v, flip), flip);
 }
 // Sample positions, in sub-units, of pixels that are numbered from pixel `first` on.
+template <class G>
 HWY_INLINE V sample(V px, int first = 0) {
-  return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(D{}, sample_sub(first)));
+  return hn::Add(hn::ShiftLeft<G::kSubBits>(px), hn::Set(D{}, G::sample(first)));
 }
 
 // The part of pixel_box() that lies in another box.
@@ -40,15 +52,16 @@ struct BoxLanes {
   V x0, y0, x1, y1;
   hn::Mask<D> filled;
 
-  HWY_INLINE BoxLanes(const V (&x)[3], const V (&y)[3], const PixelBox& in) {
+  template <class G>
+  HWY_INLINE BoxLanes(const GridTriangles<G>& t, const PixelBox& in) {
     const D d;
     const auto first_sample = [&](V c) {
-      return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(d, kHalf - 1)));
+      return hn::ShiftRight<G::kSubBits>(hn::Add(c, hn::Set(d, G::kHalf - 1)));
     };
-    x0 = hn::Max(first_sample(min_of(x)), hn::Set(d, in.x0));
-    x1 = hn::Min(first_sample(max_of(x)), hn::Set(d, in.x1));
-    y0 = hn::Max(first_sample(min_of(y)), hn::Set(d, in.y0));
-    y1 = hn::Min(first_sample(max_of(y)), hn::Set(d, in.y1));
+    x0 = hn::Max(first_sample(min_of(t.x)), hn::Set(d, in.x0));
+    x1 = hn::Min(first_sample(max_of(t.x)), hn::Set(d, in.x1));
+    y0 = hn::Max(first_sample(min_of(t.y)), hn::Set(d, in.y0));
+    y1 = hn::Min(first_sample(max_of(t.y)), hn::Set(d, in.y1));
     filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   }
 };

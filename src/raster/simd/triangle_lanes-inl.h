@@ -1,5 +1,6 @@
 // Triangles in vectors, one 64-bit lane per triangle. Values that fit 32 bits (rule 3) lie in the lane's
-// lower half, so that one instruction multiplies two of them to a 64-bit product.
+// lower half, so that one instruction multiplies two of them to a 64-bit product. G is the grid
+// (core/grid.h).
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -110,10 +111,13 @@ HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
 }
 
 // kLanes64 triangles. Each fills both halves of its lane.
-struct TriangleLanes64 : TriangleLanes {};
+template <class G>
+struct TriangleLanes64 : GridTriangles<G> {};
 // Loads the triangles with these indices.
-HWY_INLINE TriangleLanes64 load(const ScreenTriangle* triangles, const std::uint32_t* index) {
-  return {load_triangles([&](int lane) { return triangles + index[lane * kLanes64 / kLanes]; })};
+template <class G>
+HWY_INLINE TriangleLanes64<G> load(const ScreenTriangle* triangles, const std::uint32_t* index) {
+  return {GridTriangles<G>(
+      load_triangles([&](int lane) { return triangles + index[lane * kLanes64 / kLanes]; }))};
 }
 
 // Twice the signed area, made positive.
@@ -121,7 +125,8 @@ struct Area {
   V64 value;
   V64 flip;  // -1 where the sign was changed, that is, for the other winding
 };
-HWY_INLINE Area area_of(const TriangleLanes64& t) {
+template <class G>
+HWY_INLINE Area area_of(const TriangleLanes64<G>& t) {
   const V64 area = hn::Sub(product(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[2], t.y[0])),
                            product(hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0])));
   const V64 flip = hn::VecFromMask(D64{}, hn::Lt(area, hn::Zero(D64{})));
@@ -137,7 +142,8 @@ HWY_INLINE std::uint32_t may_cover(const BoxLanes& box, const Area& area) {
 struct EdgeLanes {
   V32 a, b;
   V64 value;
-  HWY_INLINE EdgeLanes(const TriangleLanes64& t, const Area& area, int i, V32 sample_x, V32 sample_y) {
+  template <class G>
+  HWY_INLINE EdgeLanes(const TriangleLanes64<G>& t, const Area& area, int i, V32 sample_x, V32 sample_y) {
     const int j = i == 2 ? 0 : i + 1;
     const V32 flip = lower(area.flip);
     a = flipped(hn::Sub(t.y[i], t.y[j]), flip), b = flipped(hn::Sub(t.x[j], t.x[i]), flip);

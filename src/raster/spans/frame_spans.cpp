@@ -67,10 +67,10 @@ struct FrameSpans : FrameBatch {
   std::uint32_t flat = 0;  // bit k: triangle k has too flat a line, and its spans are found by integers
 
   HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
-    const TriangleLanes64 t = load(task.bins.triangles(), indices);
-    const BoxLanes in_area(t.x, t.y, task.area);
+    const auto t = load<Coarse>(task.bins.triangles(), indices);
+    const BoxLanes in_area(t, task.area);
     const Area area = area_of(t);
-    flat |= mask_bits(store_lines(t, area, task.area.x0, sample(in_area.y0), line, k)) << k;
+    flat |= mask_bits(store_lines(t, area, task.area.x0, sample<Coarse>(in_area.y0), line, k)) << k;
     return store_vector(t, in_area, area, task.bins.triangles(), indices, k);
   }
 

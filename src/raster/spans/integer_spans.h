@@ -9,13 +9,13 @@
 namespace edgewise {
 
 // The first pixel whose sample is not left of the edge from p down to q:
-//   ceil(((p.x - 128) dy + (s - p.y) dx) / (256 dy)), where s is the height of the row's sample.
-// All fits 64 bits: dy <= 2^23 and |dx| <= 2^23, so the numerator stays below 2^49 (proofs/spans.smt2).
+//   ceil(((p.x - 2^14) dy + (s - p.y) dx) / (2^15 dy)), where s is the height of the row's sample.
+// All fits 64 bits: dy <= 2^30 and |dx| <= 2^30, so the numerator stays below 2^62 (proofs/spans.smt2).
 inline std::int64_t first_right_of(std::int32_t px, std::int32_t py, std::int32_t qx, std::int32_t qy,
                                    int row) {
   using namespace contract;
-  const std::int64_t dx = qx - px, dy = qy - py, denominator = dy * kSub;
-  const std::int64_t numerator = (px - kHalf) * dy + (sample_sub(row) - py) * dx + denominator - 1;
+  const std::int64_t dx = qx - px, dy = qy - py, denominator = dy * kPixel_q15;
+  const std::int64_t numerator = (px - kHalf_q15) * dy + (sample_q15(row) - py) * dx + denominator - 1;
   return numerator / denominator - (numerator % denominator < 0);  // rounds down
 }
 

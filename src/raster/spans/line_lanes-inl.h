@@ -73,15 +73,15 @@ HWY_INLINE LineLanes line_lanes(V32 px, V32 py, V32 qx, V32 qy, V32 flip, V32 fi
   const F64 df;
   const V32 zero = hn::Zero(D32{}), dx = hn::Sub(qx, px), dy = hn::Sub(qy, py);
   // A horizontal edge bounds no row. The large divisor keeps it from being marked as too flat.
-  const V32 not_zero_dy = hn::IfThenElse(hn::Eq(dy, zero), set32(kGuardSub), dy);
+  const V32 not_zero_dy = hn::IfThenElse(hn::Eq(dy, zero), set32(Coarse::kGuardSub), dy);
   const auto as_double = [](V64 v) { return hn::ConvertTo(F64{}, v); };
   const auto per_sub = hn::Div(hn::Set(df, 0x1p35), as_double(product(not_zero_dy, set32(1))));
-  const auto step = hn::Mul(as_double(product(dx, set32(kSub))), per_sub);
+  const auto step = hn::Mul(as_double(product(dx, set32(Coarse::kSub))), per_sub);
   const auto start = hn::Mul(as_double(product(dx, hn::Sub(first_sample, py))), per_sub);
   const auto clamped = [&](hn::Vec<F64> v, double limit) {
     return to_units(hn::Min(hn::Max(v, hn::Set(df, -limit)), hn::Set(df, limit)));
   };
-  const V64 vertex = hn::ShiftLeft<kUnitBits - kSubBits>(as64(hn::Sub(px, set32(kHalf))));
+  const V64 vertex = hn::ShiftLeft<kUnitBits - Coarse::kSubBits>(as64(hn::Sub(px, set32(Coarse::kHalf))));
   const V64 ceiling = hn::Set(d, (std::int64_t{1} << kUnitBits) - (std::int64_t{1} << 11));
   // Clockwise on a y-down screen: an edge that goes up is on the left.
   const V32 down = flipped(dy, flip);
@@ -97,13 +97,13 @@ struct BatchLine {
 };
 // Stores the lines of a vector of triangles as entries k … of `out`, relative to pixel column `left`. Returns
 // where one is too flat.
-HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes64& t, const Area& area, int left, V32 first_sample,
-                                     BatchLine (&out)[3], int k) {
+HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes64<Coarse>& t, const Area& area, int left,
+                                     V32 first_sample, BatchLine (&out)[3], int k) {
   const D64 d;
   auto flat = hn::FirstN(d, 0);
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
-    const V32 origin = set32(left * kSub);
+    const V32 origin = set32(left * Coarse::kSub);
     const LineLanes line = line_lanes(hn::Sub(t.x[i], origin), t.y[i], hn::Sub(t.x[j], origin), t.y[j],
                                       lower(area.flip), first_sample);
     hn::StoreU(line.at, d, out[i].at + k);

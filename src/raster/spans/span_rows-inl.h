@@ -41,13 +41,13 @@ struct SpanBatch {
 // Sets up a vector of triangles as entries k … of the batch. Returns the bits of those that are drawn.
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
                                        int k) {
-  const TriangleLanes64 t = load(task.bins->triangles(), indices);
-  const BoxLanes box(t.x, t.y, task.box());
+  const auto t = load<Coarse>(task.bins->triangles(), indices);
+  const BoxLanes box(t, task.box());
   const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
   const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));
   const Area area = area_of(t);
-  const auto flat = store_lines(t, area, task.x0, sample(y0, task.y0), out.line, k);
-  const DepthLanes depth = depth_lanes(t, area, task.x0 & -kDepthCell, task.y0 & -kDepthCell);
+  const auto flat = store_lines(t, area, task.x0, sample<Coarse>(y0, task.y0), out.line, k);
+  const DepthLanes<Coarse> depth = depth_lanes(t, area, task.x0 & -kDepthCell, task.y0 & -kDepthCell);
   out.by_integers |= mask_bits(hn::Or(flat, hn::Not(depth.exact))) << k;
   const V32 first = depth.at(set32(task.x0 % kDepthCell), hn::Add(y0, set32(task.y0 % kDepthCell)));
   store(first, out.depth.first + k);

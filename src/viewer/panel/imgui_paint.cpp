@@ -45,7 +45,7 @@ std::int32_t snapped(float px) {
   constexpr float kSteps = 16.0f;
   constexpr float kGuard = static_cast<float>(contract::kMaxImageSide) - 1.0f;
   return static_cast<std::int32_t>(std::floor(std::clamp(px, -kGuard, kGuard) * kSteps + 0.5f)) *
-         (contract::kSub / 16);
+         (contract::kPixel_q15 / 16);
 }
 
 // All corners of a triangle have the same colour.
@@ -73,7 +73,7 @@ void paint_triangle(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& 
     std::int64_t next[] = {edges[0].at(box.x0, y), edges[1].at(box.x0, y), edges[2].at(box.x0, y)};
     for (int x = box.x0; x < box.x1; ++x) {
       const std::int64_t w[] = {next[0], next[1], next[2]};
-      for (int i = 0; i < 3; ++i) next[i] += std::int64_t{contract::kSub} * edges[i].a;
+      for (int i = 0; i < 3; ++i) next[i] += std::int64_t{contract::kPixel_q15} * edges[i].a;
       if ((w[0] | w[1] | w[2]) < 0) continue;
       if (plain) {
         row[x] = blended(row[x], colour);
