@@ -117,6 +117,12 @@ class Catalogue {
     add(Family::visibility, "deep_soup", "20,000 intersecting triangles, near and far", true, false,
         quick_ ? 0.5 : 3.0, [seen] { return visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
+    add_projection("fine_sphere", "a sphere of 128 x 192 cells, near the camera",
+                   quick_ ? kNormalSize : kFullHd, quick_ ? 0.5 : 2.0, [quick = quick_](int frame) {
+                     Scene scene = quick ? sphere_scene(32, 48) : sphere_scene(128, 192);
+                     scene.instances.front().angle = static_cast<float>(frame);
+                     return scene;
+                   });
     for (const VisibilityCase& c : visibility_cases())
       add(Family::visibility, c.name, c.summary, false, true, 0.1, c.make);
     for (const FacingCase& c : facing_cases())
@@ -155,6 +161,19 @@ class Catalogue {
     add(Family::visibility, info.name, info.summary, false, false, cost_s / 2, [&info, for_visibility, seen] {
       return visibility_scene(std::get<Scene>(info.make(for_visibility)), seen, Cull::back);
     });
+    add_projection(info.name, info.summary, size, 2 * cost_s, [&info, request](int frame) {
+      SceneRequest at = request;
+      at.time = static_cast<float>(frame);
+      return std::get<Scene>(info.make(at));
+    });
+  }
+
+  void add_projection(std::string_view name, std::string_view summary, Size size, double cost_s,
+                      std::function<Scene(int)> make) {
+    const int frames = quick_ ? 1 : 4;
+    add(Family::projection, name, summary, false, false, frames * cost_s, [size, frames, make] {
+      return ProjectionScene{size, frames, make};
+    });
   }
 
   void add_facing() {
@@ -184,12 +203,16 @@ std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::func
                                   const SizedDrawable own = load();
                                   return AnyScene(scene_of(own.drawable, own.size));
                                 }}};
-  if (!stream)
-    scenes.push_back({Family::visibility, name, "your file", true, false, 5.0, [load] {
-                        const SizedDrawable own = load();
-                        return AnyScene(
-                            visibility_scene(std::get<Scene>(own.drawable), own.size, Cull::back));
-                      }});
+  if (stream) return scenes;
+  scenes.push_back({Family::visibility, name, "your file", true, false, 5.0, [load] {
+                      const SizedDrawable own = load();
+                      return AnyScene(visibility_scene(std::get<Scene>(own.drawable), own.size, Cull::back));
+                    }});
+  scenes.push_back({Family::projection, name, "your file", false, false, 5.0, [load] {
+                      const SizedDrawable own = load();
+                      return AnyScene(ProjectionScene{
+                          own.size, 1, [scene = std::get<Scene>(own.drawable)](int) { return scene; }});
+                    }});
   return scenes;
 }
 

@@ -11,11 +11,12 @@
 #include "lab/coverage/coverage.h"
 #include "lab/facing/facing.h"
 #include "lab/method.h"
+#include "lab/projection/projection.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
 
-using AnyScene = std::variant<CoverageScene, VisibilityScene, FacingScene, ClippingScene>;
+using AnyScene = std::variant<CoverageScene, VisibilityScene, FacingScene, ClippingScene, ProjectionScene>;
 
 struct LabScene {
   Family family;
@@ -34,7 +35,7 @@ struct SizedDrawable {
   Drawable drawable;
   Size size;
 };
-// The user's own scene: one for coverage, and for a mesh one for visibility.
+// The user's own scene: one for coverage, and for a mesh one for visibility and one for projection.
 std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load);
 
 }  // namespace edgewise::lab

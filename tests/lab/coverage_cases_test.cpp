@@ -81,7 +81,8 @@ TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {
 // ---- Visible triangles and depths, checked by hand, by brute force, and by rule 6
 
 VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
-  return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid}, 2)
+  return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid},
+                              2)
       .score(find_coverage_method(method));
 }
 

@@ -81,6 +81,7 @@ bool broke_promise(const MethodResult& method) {
     bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }
     bool operator()(const lab::FacingScores& s) const { return s.broken != 0; }
     bool operator()(const lab::ClippingScore& s) const { return s.broken != 0; }
+    bool operator()(const lab::ProjectionScore& s) const { return exact && s.by_projection != 0; }
   };
   return std::visit(Visit{method.exact}, method.score);
 }
@@ -139,7 +140,8 @@ class Run {
 }  // namespace
 
 std::size_t ChosenMethods::count(Family family) const {
-  const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size()};
+  const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size(),
+                                projection.size()};
   return counts[static_cast<std::size_t>(family)];
 }
 
@@ -149,6 +151,7 @@ std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() cons
   for (const auto* method : visibility) list.emplace_back(Family::visibility, &method->info);
   for (const auto* method : facing) list.emplace_back(Family::facing, &method->info);
   for (const auto* method : clipping) list.emplace_back(Family::clipping, &method->info);
+  for (const auto* method : projection) list.emplace_back(Family::projection, &method->info);
   return list;
 }
 
@@ -168,6 +171,7 @@ ChosenMethods methods_of(const AccuracyPlan& plan) {
   choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);
+  choose(plan, Family::projection, lab::projection_methods(), chosen.projection);
   return chosen;
 }
 

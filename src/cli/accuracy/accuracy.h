@@ -13,6 +13,7 @@
 #include "cli/accuracy/closeup.h"
 #include "lab/coverage/cracks.h"
 #include "lab/coverage/visible.h"
+#include "lab/projection/projection.h"
 #include "lab/scenes.h"
 
 namespace edgewise::tools {
@@ -48,7 +49,8 @@ struct CoverageScores {
   CrackCounts cracks;
   lab::VisibleTriangleScore visible;
 };
-using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
+using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore,
+                           lab::ProjectionScore>;
 
 struct MethodResult {
   std::string name;
@@ -62,17 +64,19 @@ struct SceneResult {
   bool smallest;  // see LabScene
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
-  // Coverage: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that cover a sample.
-  // Counted by the exact reference: the snapped one where there are two, but for facing the one before
-  // snapping.
+  // Coverage and projection: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that
+  // cover a sample.
+  // Counted by the exact reference: the snapped one where there are two, but for facing that of the source.
   std::uint64_t covered = 0;
-  std::uint64_t crossings = 0;         // coverage only: of edges with rows or columns of samples
+  std::uint64_t crossings = 0;         // coverage and projection: of edges with rows or columns of samples
   std::uint64_t shared_crossings = 0;  // coverage only: of edges that triangles share
   float largest_side_px = 0;           // coverage only: of the triangles' bounding boxes
   std::vector<MethodResult> methods;
 
   // The denominator of error rates.
-  std::uint64_t trials() const { return family == Family::coverage ? crossings : covered; }
+  std::uint64_t trials() const {
+    return family == Family::coverage || family == Family::projection ? crossings : covered;
+  }
 };
 
 struct PerFrame {

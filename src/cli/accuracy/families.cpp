@@ -1,4 +1,4 @@
-// Judges visibility, facing and clipping methods against the exact references of their family.
+// Judges visibility, facing, clipping and projection methods against the exact references of their family.
 #include <algorithm>
 
 #include "cli/accuracy/score.h"
@@ -133,6 +133,26 @@ void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult&
         return lab::mark_visible_triangles(truth.visible, lab::payloads_of(frame.picture),
                                            {scene.size.width, scene.size.height});
       });
+}
+
+void judge(const lab::ProjectionScene& scene, const Judging& judging, SceneResult& result) {
+  const auto& methods = judging.methods.projection;
+  result.width = scene.size.width;
+  result.height = scene.size.height;
+  std::vector<lab::ProjectionScore> scores(methods.size());
+  for (int frame = 0; frame < scene.frames; ++frame) {
+    const lab::ProjectionJudge judge(scene.make(frame), scene.size, judging.plan.threads);
+    result.triangles += judge.triangles();
+    result.covered += judge.covered();
+    result.crossings += judge.crossings();
+    parallel_for(judging.plan.threads, static_cast<int>(methods.size()), [&](int n) {
+      const auto i = static_cast<std::size_t>(n);
+      scores[i] += judge.score(*methods[i]);
+    });
+    judging.progress(static_cast<double>(frame + 1) / scene.frames);
+  }
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    result.methods.push_back({std::string(methods[i]->info.name), methods[i]->info.exact, scores[i]});
 }
 
 }  // namespace edgewise::tools

@@ -89,14 +89,19 @@ struct AddScore {
                                      {"broken", s.broken}};
     add_rate(score, s.wrong(), scene.covered);
   }
+  void operator()(const lab::ProjectionScore& s) const {
+    Json& score = method["score"] = {
+        {"errors", s.wrong}, {"by_rounding", s.by_rounding}, {"by_projection", s.by_projection}};
+    add_rate(score, s.wrong, scene.crossings);
+  }
 };
 
 Json scene_json(const SceneResult& scene, const ChosenMethods& methods) {
   Json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"summary", scene.summary},
               {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
               {"covered", scene.covered}, {"smallest", scene.smallest},      {"methods", Json::array()}};
+  if (scene.crossings != 0) result["crossings"] = scene.crossings;
   if (scene.family == Family::coverage) {
-    result["crossings"] = scene.crossings;
     result["shared_crossings"] = scene.shared_crossings;
     result["largest_side_px"] = scene.largest_side_px;
   }

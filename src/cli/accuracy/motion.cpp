@@ -21,7 +21,8 @@ constexpr std::string_view kMovingScenes[] = {"torus-knot", "terrain"};
 
 lab::CoverageScene scene_at(std::string_view name, int frame) {
   const float seconds = static_cast<float>(frame) / static_cast<float>(kFramesPerSecond);
-  return lab::coverage_scene(find_scene(name).make({kSize.width, kSize.height, seconds}), {kSize.width, kSize.height});
+  return lab::coverage_scene(find_scene(name).make({kSize.width, kSize.height, seconds}),
+                             {kSize.width, kSize.height});
 }
 
 // All but our engine with other numbers.

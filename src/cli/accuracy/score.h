@@ -14,6 +14,7 @@ struct ChosenMethods {
   std::vector<const lab::VisibilityMethod*> visibility;
   std::vector<const lab::FacingMethod*> facing;
   std::vector<const lab::ClippingMethod*> clipping;
+  std::vector<const lab::ProjectionMethod*> projection;
 
   std::size_t count(Family family) const;
   std::vector<std::pair<Family, const lab::MethodInfo*>> all() const;
@@ -36,6 +37,7 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
 void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResult& result);
 void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& result);
 void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult& result);
+void judge(const lab::ProjectionScene& scene, const Judging& judging, SceneResult& result);
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
                               const std::function<void(double)>& progress, std::vector<Closeup>& closeups);

@@ -115,6 +115,7 @@ class FamilyTable {
       std::uint64_t operator()(const lab::VisibilityScores& s) const { return s.snapped.wrong_triangle; }
       std::uint64_t operator()(const lab::FacingScores& s) const { return s.source.misclassified; }
       std::uint64_t operator()(const lab::ClippingScore& s) const { return s.wrong(); }
+      std::uint64_t operator()(const lab::ProjectionScore& s) const { return s.wrong; }
     };
     return std::visit(Visit{}, score);
   }
@@ -224,6 +225,22 @@ std::string clipping_table(const FamilyTable& t) {
          "tri: wrong visible triangle; hair: right within 1/64 px of the sample\n";
 }
 
+std::string projection_table(const FamilyTable& t) {
+  using S = lab::ProjectionScore;
+  std::string text = t.title("wrong samples per 10^6 edge crossings", "crossings");
+  constexpr const char* kLine = "{:<18}{:>12}{:>14}{:>16}{:>{}}\n";
+  text +=
+      fmt::format(kLine, "method", "per 10^6", "by rounding", "by projection", kMostWrongOn, last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const auto part = [&](auto count) { return rate(t.sum(i, count), t.trials()); };
+    text += fmt::format(kLine, t.name(i), part(&S::wrong), part(&S::by_rounding), part(&S::by_projection),
+                        t.most_wrong_on(i), last_width(t));
+  }
+  return text + t.without_dominant() +
+         "by rounding: of exact positions, rounded exactly to as many bits; by projection:\n"
+         "samples that differ from those\n";
+}
+
 // Cracks; the last column sums all errors against the snapped reference.
 std::string cube_table(const CubeResult& cube) {
   std::string text = fmt::format("\nrotating cube: wrong pixels per frame, {} frames of {}x{}\n", cube.frames,
@@ -256,7 +273,7 @@ std::string motion_table(const std::vector<MotionResult>& motions) {
 
 std::string accuracy_tables(const AccuracyReport& report) {
   constexpr std::string (*kTables[])(const FamilyTable&) = {coverage_table, visibility_table, facing_table,
-                                                            clipping_table};
+                                                            clipping_table, projection_table};
   std::string text;
   for (const Family family : lab::kFamilies)
     for (const bool smallest : {false, true})

@@ -70,20 +70,24 @@ VisibleTriangleJudge::VisibleTriangleJudge(CoverageScene scene, int threads)
     : scene_(numbered(std::move(scene))),
       by_grid_(exact_visible_triangles(std::span(scene_.snapped), scene_.window(), threads)),
       by_source_(scene_.truth ? scene_.truth->visible_triangles(scene_.window(), threads)
-                              : exact_visible_triangles(std::span(scene_.floats), scene_.window(), threads)) {}
+                              : exact_visible_triangles(std::span(scene_.floats), scene_.window(), threads)) {
+}
 
 VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) const {
   const FloatSource floats(scene_.floats);
   const SourceTruth& sources = scene_.truth ? static_cast<const SourceTruth&>(*scene_.truth) : floats;
   const auto in_scene = [](std::uint32_t payload) { return payload - 1; };  // kNoTriangle for the background
-  const auto in_source = [&](std::uint32_t payload) { return payload == 0 ? kNoTriangle : source(payload - 1); };
+  const auto in_source = [&](std::uint32_t payload) {
+    return payload == 0 ? kNoTriangle : source(payload - 1);
+  };
   Canvas canvas(scene_.size.width, scene_.size.height);
   method.draw(scene_.input(), canvas, {});
   VisibleTriangleScore score{.wrong_snapped = wrong_pixels(canvas, by_grid_, in_scene, [](auto, auto) {})};
-  score.wrong_source = wrong_pixels(canvas, by_source_, in_source, [&](std::uint32_t drawn, std::uint32_t expected) {
-    score.wrong_surface += drawn == kNoTriangle || expected == kNoTriangle ||
-                           !touch(sources.outline(drawn), sources.outline(expected));
-  });
+  score.wrong_source =
+      wrong_pixels(canvas, by_source_, in_source, [&](std::uint32_t drawn, std::uint32_t expected) {
+        score.wrong_surface += drawn == kNoTriangle || expected == kNoTriangle ||
+                               !touch(sources.outline(drawn), sources.outline(expected));
+      });
   if (method.contract_depth) {
     add_depth_errors(score, canvas, by_grid_, in_scene, [&](int x, int y, double exact) {
       return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);

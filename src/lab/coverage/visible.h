@@ -11,8 +11,8 @@
 namespace edgewise::lab {
 
 struct VisibleTriangleScore {
-  // Pixels that show another triangle than the truth does, or only one of both shows none; against the snapped
-  // positions, and against the source (CoverageScene::truth).
+  // Pixels that show another triangle than the truth does, or only one of both shows none; against the
+  // snapped positions, and against the source (CoverageScene::truth).
   std::uint64_t wrong_snapped = 0, wrong_source = 0;
   // Pixels of wrong_source where something shows through: neither triangle of the two is a neighbour of the
   // other, which shares a vertex with it (see touch()), or only one of both is none.

@@ -89,7 +89,8 @@ void CoverageNeeds::add(const StudiedFrame& frame, const CoverageScene& scene, i
     if (!new_crack && !new_error) return;
     const DrawnRuns of_sources = source.of_sources(drawn);
     const MarkedPicture marked = mark_coverage(source.truth(), of_sources, cracks, source.source());
-    if (new_crack) add_witness(marked, kCracks, frame, scene, source.truth().runs, of_sources.runs, cracked, tried.cracks);
+    if (new_crack)
+      add_witness(marked, kCracks, frame, scene, source.truth().runs, of_sources.runs, cracked, tried.cracks);
     if (new_error)
       add_witness(marked, kAny, frame, scene, source.truth().runs, of_sources.runs, score.errors(),
                   tried.displaced);

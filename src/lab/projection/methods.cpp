@@ -17,20 +17,21 @@ using Triangles = std::vector<ProjectedTriangle>;
 double to_grid(double px, std::optional<int> bits) {
   return bits ? std::ldexp(std::nearbyint(std::ldexp(px, *bits)), -*bits) : px;
 }
-double to_grid(const mpq_class& px, int bits) {
+double on_grid(const mpq_class& px, int bits) {
   const mpq_class units = px * (1 << bits);
   mpz_class down;
   mpz_fdiv_q(down.get_mpz_t(), units.get_num_mpz_t(), units.get_den_mpz_t());
   const int above_half = cmp(units - down, mpq_class(1, 2));
   if (above_half > 0 || (above_half == 0 && mpz_odd_p(down.get_mpz_t()) != 0)) ++down;
-  return to_grid(down.get_d(), 0) / (1 << bits);
+  return down.get_d() / (1 << bits);
 }
 
 // The planes that clip: near, far, and the guard band.
 template <typename T>
 std::array<T, 6> distances(const ClipPoint<T>& p) {
   const T guard = T(T(contract::kMaxImageSide) * p[kW]);
-  return {p[kNearSide], p[kFarSide], T(guard - p[kXw]), T(guard + p[kXw]), T(guard - p[kYw]), T(guard + p[kYw])};
+  return {p[kNearSide],      p[kFarSide],       T(guard - p[kXw]),
+          T(guard + p[kXw]), T(guard - p[kYw]), T(guard + p[kYw])};
 }
 
 // Clips a triangle (Sutherland and Hodgman), in the arithmetic of T.
@@ -80,7 +81,8 @@ Triangles by_matrix(const SceneTruth& truth, std::optional<int> bits) {
   for (std::uint32_t i = 0; i < truth.size(); ++i) {
     if (truth.facing(i) == 0) continue;
     const auto corner = [&](int k) {
-      const auto v = matrices[truth.source(i).first] * glm::tvec4<T>(glm::tvec3<T>(truth.position(i, k)), T(1));
+      const auto v =
+          matrices[truth.source(i).first] * glm::tvec4<T>(glm::tvec3<T>(truth.position(i, k)), T(1));
       return ClipPoint<T>{half_w * (v.w + v.x), half_h * (v.w - v.y), v.w, v.z, v.w - v.z};
     };
     const auto polygon = clipped<T>({corner(0), corner(1), corner(2)});
@@ -109,8 +111,9 @@ Triangles ours(const SceneTruth& truth, std::optional<int> bits) {
   for (std::size_t i = 0; i < screen.size(); ++i) {
     if (truth.facing(screen[i].payload) == 0) continue;
     const UnsnappedTriangle& at = frontend.unsnapped()[i];
-    const auto px = [&](const std::int32_t (&q15)[3], const float (&unsnapped)[3]) {
-      return [&](std::size_t k) { return bits ? q15[k] / double{contract::kPixel_q15} : double{unsnapped[k]}; };
+    const auto px = [&](const std::int32_t(&q15)[3], const float(&unsnapped)[3]) {
+      return
+          [&](std::size_t k) { return bits ? q15[k] / double{contract::kPixel_q15} : double{unsnapped[k]}; };
     };
     append(list, 3, screen[i].payload, px(screen[i].x_q15, at.x_px), px(screen[i].y_q15, at.y_px));
   }
@@ -123,7 +126,8 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
   Triangles list;
   for (std::uint32_t i = 0; i < truth.size(); ++i) {
     if (truth.facing(i) == 0) continue;
-    const std::array<ClipPoint<Ball>, 3> guess{truth.estimate(i, 0), truth.estimate(i, 1), truth.estimate(i, 2)};
+    const std::array<ClipPoint<Ball>, 3> guess{truth.estimate(i, 0), truth.estimate(i, 1),
+                                               truth.estimate(i, 2)};
     const bool inside = std::ranges::all_of(guess, [](const auto& p) {
       return std::ranges::all_of(distances(p), [](const Ball& d) { return d.sign() > 0; });
     });
@@ -135,7 +139,7 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
           const double low = to_grid(at.value - at.error, bits), high = to_grid(at.value + at.error, bits);
           if (low == high) return low;
           const ClipPoint<mpq_class> exact = corner(k);
-          return to_grid(mpq_class(exact[axis] / exact[kW]), bits);
+          return on_grid(exact[axis] / exact[kW], bits);
         };
       };
       append(list, 3, i, px(kXw), px(kYw));
@@ -143,7 +147,7 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
     }
     const auto polygon = clipped<mpq_class>({corner(0), corner(1), corner(2)});
     const auto px = [&](ClipRow axis) {
-      return [&, axis](std::size_t k) { return to_grid(mpq_class(polygon[k][axis] / polygon[k][kW]), bits); };
+      return [&, axis](std::size_t k) { return on_grid(polygon[k][axis] / polygon[k][kW], bits); };
     };
     append(list, polygon.size(), i, px(kXw), px(kYw));
   }
@@ -153,10 +157,20 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
 std::span<const ProjectionMethod> projection_methods() {
   constexpr std::string_view kOurs = "frontend/transform.cpp";
   static const std::array kMethods{
-      ProjectionMethod{{"ours_8", "our front end with 8 subpixel bits", kOurs, "rounds positions that are off by at most 2^-19 (f + 2 side) D / w px", false}, 8, ours},
-      ProjectionMethod{{"ours_float", "the same before rounding: floats relative to the camera", kOurs, "", false}, {}, ours},
-      ProjectionMethod{{"matrix_float", "one 4×4 matrix of floats", "OpenGL, Direct3D, most engines", "", false}, {}, by_matrix<float>},
-      ProjectionMethod{{"matrix_float_8", "the same, rounded to 8 subpixel bits", "", "", false}, 8, by_matrix<float>},
+      ProjectionMethod{{"ours_8", "our front end with 8 subpixel bits", kOurs,
+                        "rounds positions that are off by at most 2^-19 (f + 2 side) D / w px", false},
+                       8,
+                       ours},
+      ProjectionMethod{
+          {"ours_float", "the same before rounding: floats relative to the camera", kOurs, "", false},
+          {},
+          ours},
+      ProjectionMethod{
+          {"matrix_float", "one 4×4 matrix of floats", "OpenGL, Direct3D, most engines", "", false},
+          {},
+          by_matrix<float>},
+      ProjectionMethod{
+          {"matrix_float_8", "the same, rounded to 8 subpixel bits", "", "", false}, 8, by_matrix<float>},
       ProjectionMethod{{"matrix_double", "one 4×4 matrix of doubles", "", "", false}, {}, by_matrix<double>},
       ProjectionMethod{{"exact_8", "", "", "", true}, 8, exactly},
       ProjectionMethod{{"exact_12", "", "", "", true}, 12, exactly},

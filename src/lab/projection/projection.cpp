@@ -23,9 +23,9 @@ ProjectionScore& ProjectionScore::operator+=(const ProjectionScore& other) {
   return *this;
 }
 
-ProjectionJudge::ProjectionJudge(Scene scene, Size size)
-    : truth_(std::move(scene), size, Cull::back),
-      exact_(coverage_of(truth_, {size.width, size.height}, 1)),
+ProjectionJudge::ProjectionJudge(Scene scene, Size size, int threads)
+    : truth_(std::move(scene), size, Cull::none),
+      exact_(coverage_of(truth_, {size.width, size.height}, threads)),
       crossings_(edge_crossings(truth_, exact_.window)) {}
 
 std::uint64_t ProjectionJudge::triangles() const {

@@ -16,12 +16,20 @@
 
 namespace edgewise::lab {
 
-// One or more views, all judged together; back faces are culled, exactly.
+// One or more views, judged together: all triangles in them, front and back.
 struct ProjectionScene {
   Size size;
   int frames;
   std::function<Scene(int frame)> make;
 };
+
+// A sphere of radius 1 about the origin, of so many rings and segments.
+Scene sphere_scene(unsigned rings, unsigned segments);
+// The same with its vertices, and the camera, moved by `away` along each axis in the mesh's own space: floats
+// then hold the vertices less precisely.
+Scene sphere_far_from_origin(double away);
+// The same seen from a distance, as large in the picture.
+Scene sphere_far_from_camera(double distance);
 
 // A triangle's positions in pixels, exact in double. A clipped triangle becomes several.
 struct ProjectedTriangle {
@@ -55,7 +63,7 @@ struct ProjectionScore {
 // Judges methods on one view, in a window of its image. All functions may be called from several threads.
 class ProjectionJudge {
  public:
-  ProjectionJudge(Scene scene, Size size);
+  ProjectionJudge(Scene scene, Size size, int threads);
   std::uint64_t triangles() const;  // that can be seen
   std::uint64_t covered() const { return exact_.covered; }
   std::uint64_t crossings() const { return crossings_; }

@@ -68,21 +68,18 @@ T dot(const Row<T>& a, const Row<T>& b) {
 ClipMatrix<mpq_class> exact_matrix(const Scene& scene, Size size, const glm::dmat4& model) {
   const double half_w = size.width / 2.0, half_h = size.height / 2.0;
   if (scene.matrices) {
-    const ClipMatrix<mpq_class> to_pixels{{{half_w, 0, 0, half_w},
-                                {0, -half_h, 0, half_h},
-                                {0, 0, 0, 1},
-                                {0, 0, 1, 0},
-                                {0, 0, -1, 1}}};
+    const ClipMatrix<mpq_class> to_pixels{
+        {{half_w, 0, 0, half_w}, {0, -half_h, 0, half_h}, {0, 0, 0, 1}, {0, 0, 1, 0}, {0, 0, -1, 1}}};
     return product(product(product(to_pixels, scene.matrices->projection), scene.matrices->view), model);
   }
   const Camera& camera = scene.camera;
   const double focal_px = half_h / tangent(double{camera.fov_y} / 2.0), near_z = camera.near_z,
                far_z = camera.far_z;
   const ClipMatrix<mpq_class> to_pixels{{{focal_px, 0, -half_w, 0},
-                              {0, -focal_px, -half_h, 0},
-                              {0, 0, -1, 0},
-                              {0, 0, -1, -near_z},
-                              {0, 0, 1, far_z}}};
+                                         {0, -focal_px, -half_h, 0},
+                                         {0, 0, -1, 0},
+                                         {0, 0, -1, -near_z},
+                                         {0, 0, 1, far_z}}};
   glm::dmat4 from_camera(1.0);
   from_camera[3] = glm::dvec4(-camera.position, 1.0);
   return product(product(product(to_pixels, glm::dmat4(to_camera_frame(camera))), from_camera), model);
@@ -113,8 +110,8 @@ struct SceneTruth::Estimate {
 
   Conditions<Ball> conditions;
   PixelBounds box;
-  std::size_t sides;           // of the conditions that must be tested: the edges or all
-  std::array<int, kMost> lean{};          // exact, as in FillRule
+  std::size_t sides;              // of the conditions that must be tested: the edges or all
+  std::array<int, kMost> lean{};  // exact, as in FillRule
   std::array<bool, kMost> accepts_ties{};
 };
 
@@ -193,7 +190,8 @@ SceneTruth::SceneTruth(Scene scene, Size size, Cull cull)
       const glm::uvec3 v = mesh.triangles[t];
       const auto finite = [&](std::uint32_t vertex) { return is_finite(mesh.positions.at(vertex)); };
       if (finite(v.x) && finite(v.y) && finite(v.z))
-        add(triangle, mesh.has_flag(t, kTwoSided) ? Cull::none : cull, vertices[v.x], vertices[v.y], vertices[v.z]);
+        add(triangle, mesh.has_flag(t, kTwoSided) ? Cull::none : cull, vertices[v.x], vertices[v.y],
+            vertices[v.z]);
     }
   }
 }
@@ -216,11 +214,17 @@ void SceneTruth::add(std::uint32_t triangle, Cull cull, const ClipPoint<Ball>& a
   Box box{0.0, 0.0, double(size_.width), double(size_.height)};
   if (all(1, [](const Point& p) { return p[kW]; })) {
     const auto low = [&](ClipRow axis) {
-      const auto of = [&](const Point& p) { const Ball at = p[axis] / p[kW]; return at.value - at.error; };
+      const auto of = [&](const Point& p) {
+        const Ball at = p[axis] / p[kW];
+        return at.value - at.error;
+      };
       return std::min({of(a), of(b), of(c)});
     };
     const auto high = [&](ClipRow axis) {
-      const auto of = [&](const Point& p) { const Ball at = p[axis] / p[kW]; return at.value + at.error; };
+      const auto of = [&](const Point& p) {
+        const Ball at = p[axis] / p[kW];
+        return at.value + at.error;
+      };
       return std::max({of(a), of(b), of(c)});
     };
     box = {low(kXw), low(kYw), high(kXw), high(kYw)};
@@ -233,16 +237,17 @@ void SceneTruth::add(std::uint32_t triangle, Cull cull, const ClipPoint<Ball>& a
     if (!rational) rational.emplace(exact(triangle));
     return sign(value(*rational));
   };
-  const int facing = sign_of(estimate.conditions.det, [](const auto& c) { return c.det; });
+  const int facing = sign_of(estimate.conditions.det, [](const auto& of) { return of.det; });
   if (facing == 0 || !keeps(cull, facing)) return;
   if (!all(1, near_side) || !all(1, far_side)) estimate.sides = Estimate::kMost;
   for (std::size_t i = 0; i < estimate.sides; ++i) {
     const auto coefficient = [&](std::size_t k) {
-      return facing * sign_of(estimate.conditions.side[i][k], [&](const auto& c) { return c.side[i][k]; });
+      return facing * sign_of(estimate.conditions.side[i][k], [&](const auto& of) { return of.side[i][k]; });
     };
     // A sample on a plane is covered; one on an edge, if it is a left edge or a top edge.
     estimate.lean[i] = coefficient(0);
-    estimate.accepts_ties[i] = i >= Conditions<Ball>::kNear || estimate.lean[i] > 0 || (estimate.lean[i] == 0 && coefficient(1) > 0);
+    estimate.accepts_ties[i] =
+        i >= Conditions<Ball>::kNear || estimate.lean[i] > 0 || (estimate.lean[i] == 0 && coefficient(1) > 0);
   }
   facing_[triangle] = static_cast<std::int8_t>(facing);
   estimate_of_[triangle] = static_cast<std::uint32_t>(estimates_.size());
@@ -274,7 +279,8 @@ Conditions<mpq_class> SceneTruth::exact(std::size_t triangle) const {
 }
 
 std::vector<Run> SceneTruth::runs(Window window, int threads) const {
-  return all_runs(size(), [&](std::size_t i) { return truth_of(i); }, window, threads);
+  return all_runs(
+      size(), [&](std::size_t i) { return truth_of(i); }, window, threads);
 }
 
 VisibleTriangles SceneTruth::visible_triangles(Window window, int threads) const {
@@ -283,7 +289,9 @@ VisibleTriangles SceneTruth::visible_triangles(Window window, int threads) const
     const PixelBounds& box = estimates_[estimate_of_[i]].box;
     return box.y0 < rows.y1() && box.y1 > rows.y0;
   };
-  return VisibleTriangleFinder(size(), [&](std::size_t i) { return truth_of(i); }, reaches_rows, window).run(threads);
+  return VisibleTriangleFinder(
+             size(), [&](std::size_t i) { return truth_of(i); }, reaches_rows, window)
+      .run(threads);
 }
 
 std::vector<glm::dvec3> SceneTruth::outline(std::uint32_t triangle) const {
@@ -306,7 +314,8 @@ std::vector<glm::dvec3> SceneTruth::outline(std::uint32_t triangle) const {
     polygon.swap(cut);
   }
   std::vector<glm::dvec3> corners;
-  for (const auto& p : polygon) corners.emplace_back(p[kXw] / p[kW], p[kYw] / p[kW], depth_scale_ * p[kNearSide] / p[kW]);
+  for (const auto& p : polygon)
+    corners.emplace_back(p[kXw] / p[kW], p[kYw] / p[kW], depth_scale_ * p[kNearSide] / p[kW]);
   return corners;
 }
 
@@ -328,9 +337,12 @@ double SceneTruth::depth01(std::uint32_t triangle, double x_px, double y_px) con
 
 bool SceneTruth::misses(std::uint32_t triangle, const Box& box) const {
   const Conditions<Ball>& c = estimates_[estimate_of_[triangle]].conditions;
-  const auto fails = [&](std::size_t i, double x, double y) { return sign(c.at(i, x, y)) * facing_[triangle] < 0; };
+  const auto fails = [&](std::size_t i, double x, double y) {
+    return sign(c.at(i, x, y)) * facing_[triangle] < 0;
+  };
   for (std::size_t i = 0; i < Conditions<Ball>::kCount; ++i)
-    if (fails(i, box.x0, box.y0) && fails(i, box.x1, box.y0) && fails(i, box.x0, box.y1) && fails(i, box.x1, box.y1))
+    if (fails(i, box.x0, box.y0) && fails(i, box.x1, box.y0) && fails(i, box.x0, box.y1) &&
+        fails(i, box.x1, box.y1))
       return true;
   return false;
 }

@@ -36,8 +36,9 @@ template <typename T>
 using ClipPoint = std::array<T, kClipRows>;
 ClipMatrix<mpq_class> exact_matrix(const Scene& scene, Size size, const glm::dmat4& model);
 
-// A triangle's conditions in the arithmetic of T: Ball, or mpq_class. Condition i is a linear function on the screen, which has
-// the sign of `det` on the inner side: those of the three edges, and of the near and the far plane.
+// A triangle's conditions in the arithmetic of T: Ball, or mpq_class. Condition i is a linear function on the
+// screen, which has the sign of `det` on the inner side: those of the three edges, and of the near and the
+// far plane.
 template <typename T>
 struct Conditions {
   static constexpr std::size_t kNear = 3, kFar = 4, kCount = 5;
@@ -96,7 +97,7 @@ class SceneTruth final : public SourceTruth {
 
   Scene scene_;
   Size size_;
-  double depth_scale_;  // depth is this times the near function, divided by w
+  double depth_scale_;                        // depth is this times the near function, divided by w
   std::vector<ClipMatrix<mpq_class>> exact_;  // by instance
   std::vector<ClipMatrix<Ball>> rounded_;
   std::vector<std::pair<std::size_t, std::size_t>> sources_;

@@ -20,7 +20,8 @@ Tally& Tally::operator+=(const Tally& other) {
 std::span<const Sweep> sweeps() {
   static const std::vector<Sweep> list = [] {
     std::vector<Sweep> all;
-    for (const auto table : {coverage_sweeps, visibility_sweeps, facing_sweeps, clipping_sweeps})
+    for (const auto table :
+         {coverage_sweeps, visibility_sweeps, facing_sweeps, clipping_sweeps, projection_sweeps})
       std::ranges::move(table(), std::back_inserter(all));
     return all;
   }();

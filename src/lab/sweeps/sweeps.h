@@ -58,6 +58,7 @@ std::vector<Sweep> coverage_sweeps();
 std::vector<Sweep> visibility_sweeps();
 std::vector<Sweep> facing_sweeps();
 std::vector<Sweep> clipping_sweeps();
+std::vector<Sweep> projection_sweeps();
 std::span<const Sweep> sweeps();  // all of them
 // Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const Sweep& find_sweep(std::string_view name);

@@ -1,8 +1,8 @@
 // Ball arithmetic (van der Hoeven, "Ball arithmetic", 2010): a double and a bound on its error. Decides most
 // signs and comparisons without rationals.
 //
-// Rounding to nearest leaves |fl(v) - v| <= 2^-53 |fl(v)| + 2^-1074; the last term is for underflow. Computing
-// a bound rounds a few times; a factor of 1 + 2^-50 covers that.
+// Rounding to nearest leaves |fl(v) - v| <= 2^-53 |fl(v)| + 2^-1074; the last term is for underflow.
+// Computing a bound rounds a few times; a factor of 1 + 2^-50 covers that.
 #pragma once
 
 #include <cmath>
@@ -37,7 +37,9 @@ struct Ball {
   }
 
  private:
-  static Ball rounded(double v, double e) { return {v, (e + 0x1p-53 * std::abs(v) + 0x1p-1074) * (1.0 + 0x1p-50)}; }
+  static Ball rounded(double v, double e) {
+    return {v, (e + 0x1p-53 * std::abs(v) + 0x1p-1074) * (1.0 + 0x1p-50)};
+  }
 };
 
 }  // namespace edgewise::lab

@@ -84,7 +84,8 @@ bool reaches_rows(const FloatTriangle& t, Window rows) {
 
 template <typename Triangle>
 std::vector<Run> runs_of(std::span<const Triangle> triangles, Window window, int threads) {
-  return all_runs(triangles.size(), [&](std::size_t i) { return truth_of(triangles[i]); }, window, threads);
+  return all_runs(
+      triangles.size(), [&](std::size_t i) { return truth_of(triangles[i]); }, window, threads);
 }
 
 template <typename Triangle>
@@ -110,8 +111,8 @@ SnappedTruth::SnappedTruth(const ScreenTriangle& triangle)
       rule_(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])) {}
 
 bool SnappedTruth::accepts(std::size_t edge, int px, int py) const {
-  return rule_.accepts(
-      edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384, Wide{py} * 32768 + 16384));
+  return rule_.accepts(edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384,
+                                          Wide{py} * 32768 + 16384));
 }
 
 double SnappedTruth::crossing(std::size_t edge, int py) const {
@@ -138,9 +139,7 @@ Ball SnappedTruth::depth_estimate(int px, int py) const {
 }
 
 FloatTruth::FloatTruth(const double (&x_px)[3], const double (&y_px)[3])
-    : x_{x_px[0], x_px[1], x_px[2]},
-      y_{y_px[0], y_px[1], y_px[2]},
-      rule_(y_, side(0, 1, x_[2], y_[2])) {}
+    : x_{x_px[0], x_px[1], x_px[2]}, y_{y_px[0], y_px[1], y_px[2]}, rule_(y_, side(0, 1, x_[2], y_[2])) {}
 
 FloatTruth::FloatTruth(const UnsnappedTriangle& t)
     : FloatTruth({double{t.x_px[0]}, double{t.x_px[1]}, double{t.x_px[2]}},

@@ -152,7 +152,8 @@ class Scorer {
   }
 
   void add_source(std::uint32_t drawn, std::uint32_t truth, int x, int y) {
-    const std::uint32_t source = drawn == kNoTriangle || !scene_.truth ? drawn : scene_.triangles[drawn].screen.payload;
+    const std::uint32_t source =
+        drawn == kNoTriangle || !scene_.truth ? drawn : scene_.triangles[drawn].screen.payload;
     source_.add_visible(source, truth);
     if (drawn == kNoTriangle || !keeps_depth()) return;
     if (source == truth || source_.covers(drawn, x, y)) source_.add_depth(frame_, drawn, x, y);

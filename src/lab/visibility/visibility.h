@@ -2,10 +2,10 @@
 //
 // Every method draws the same snapped triangles with the same exact coverage (rules 2 and 4), so that they
 // differ in visibility only. There are two truths. That of the source is the exact projection of the scene's
-// vertices, or the unsnapped positions of a scene that is given on the screen. The other one is on the snapped
-// positions. Both use rationals: 1 / view_z is linear on the screen. The nearest plane is visible; at a tie
-// the earlier triangle. Unlike exact_visible_triangles() (lab/truth/truth.h) they use unrounded distances
-// instead of the front end's depths, since the methods differ in how they round depth.
+// vertices, or the unsnapped positions of a scene that is given on the screen. The other one is on the
+// snapped positions. Both use rationals: 1 / view_z is linear on the screen. The nearest plane is visible; at
+// a tie the earlier triangle. Unlike exact_visible_triangles() (lab/truth/truth.h) they use unrounded
+// distances instead of the front end's depths, since the methods differ in how they round depth.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct VisibilityScene {
   int width, height;  // px
   double near_z, far_z;
   std::vector<VisibilityTriangle> triangles;
-  std::vector<VisibilityFace> faces;  // cover all triangles, in order; painters sort them
+  std::vector<VisibilityFace> faces;                  // cover all triangles, in order; painters sort them
   std::shared_ptr<const SceneTruth> truth = nullptr;  // null: the scene is given on the screen
 };
 
