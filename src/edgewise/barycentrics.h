@@ -48,9 +48,9 @@ struct BarycentricsView {
 //
 // Throws std::invalid_argument
 // - for planes that cannot be read or written, or that overlap in memory, for options of another size than
-//   the frame or another payload than ids, for a camera, an instance's mesh index or matrix, a number of
-//   triangles, a first id or an execution that Frontend::run() throws for, and for flags that are neither
-//   empty nor one per triangle. Then nothing has been written.
+//   the frame or another payload than ids, for a camera, a number of subpixel bits, an instance's mesh index
+//   or matrix, a number of triangles, a first id or an execution that Frontend::run() throws for, and for
+//   flags that are neither empty nor one per triangle. Then nothing has been written.
 // - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
 //   frame shows something else. Then the content of the planes is undefined, as it is after std::bad_alloc.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,

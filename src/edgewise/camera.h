@@ -89,10 +89,14 @@ glm::dmat4 projection_from(ClipSpace space, const glm::dmat4& projection);
 
 namespace contract {
 
-// Rule 10 of the contract, positions of a scene's vertices. The camera is subtracted from a vertex before
-// anything else is rounded. Let d be the vertex minus `origin`, which is the camera's position in model space
-// rounded to float; doubles transform what that rounding leaves. With f = height / (2 tan(fov_y / 2)), for an
-// unscaled instance, each row of
+// Rule 10 of the contract, positions of a scene's vertices before they are snapped (rule 2). Their truth is
+// the exact product of the vertex and the matrices of the instance and the camera, whose elements are
+// doubles: sines and tangents before them belong to the camera's statement. A point o, for a Camera its
+// position, is subtracted from a vertex before anything else is rounded.
+//
+// With up to 8 subpixel bits, floats transform vertices. Let d be the vertex minus the camera's position in
+// model space rounded to float; doubles transform what that rounding leaves. With f = height / (2 tan(fov_y /
+// 2)), for an unscaled instance, each row of
 //   x w = f x' + width / 2 w,  y w = f y' + height / 2 w,  w
 // has coefficients of length at most f + width (1 for w), and four terms that are rounded six times in float:
 // d, coefficient, product, three sums. Let D be the vertex' distance from the camera. The first three terms
@@ -121,7 +125,27 @@ namespace contract {
 //   |error of depth| < 2^-23 (Lz + Lw) D / w, and 1 unit
 // An instance's matrix whose columns are nearly dependent, but not orthogonal, is less precise: o is not
 // subtracted before its products are rounded.
+//
+// With more than 8 subpixel bits, doubles transform vertices. The product of the matrices is computed with
+// twice as many bits, and its elements and o are rounded once. With L for the longer row of x w and y w,
+// and in units of 2^-53:
+//   first three terms of x w: d, coefficient, product, three sums   6 L D
+//   fourth: coefficient, sum                                        2 side w
+//   the same of w, times |x|                                        6 |x| Lw D + 2 |x| w
+//   1 / w, and product with it                                      2 |x| w
+// So for a vertex in view of an unscaled instance whose origin is at most 2^24 D away from o,
+//   |error of x, y| < 2^-50 ((L + side Lw) D / w + side) px
+// and in the guard band with 2^15 px in place of `side`. There D / w is below 1 + 2^15.1 / f in a usual
+// perspective, and L < f + 2^13. So the error is under 2^-17 px for 1/4 px < f < 2^32 px, as it is in a
+// parallel projection for L D / w < 2^32 px.
+//
+// A vertex that planes cut off is interpolated in double too. Each of up to six planes adds 5 L D, for the D
+// of the farthest corner: a new vertex lies on an edge whose error is below
+//   2^-47 (L + 2^14 Lw) D / w px
+// That is under 2^-17 px while D < 2^15 w in an image of less than 2^13 px with f < 2^14 px. Along its edge,
+// a new vertex is where the rounded distances from the plane place it.
 inline constexpr double kPositionError = 0x1p-19;
+inline constexpr double kFinePositionError = 0x1p-50;
 
 }  // namespace contract
 

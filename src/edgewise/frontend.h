@@ -48,10 +48,14 @@ enum class TriangleState : std::uint8_t {
   clipped             // returned clipped
 };
 
+inline constexpr int kMinSubpixelBits = 4, kMaxSubpixelBits = 15;
+
 struct FrontendOptions {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide
-  Cull cull = Cull::back;           // the front is clockwise on the y-down screen
-  bool shade = true;                // scenes only: multiplies each colour by max(n·l, 0.15)
+  // x and y of vertices are rounded to 2^-subpixel_bits px (rule 2): kMinSubpixelBits … kMaxSubpixelBits.
+  int subpixel_bits = 8;
+  Cull cull = Cull::back;  // the front is clockwise on the y-down screen
+  bool shade = true;       // scenes only: multiplies each colour by max(n·l, 0.15)
   Payload payload = Payload::colour;
   // The id of the first triangle. A draw over others sets it to the number of triangles that they submitted:
   // then two draws equal one of both, ids included.
@@ -62,8 +66,9 @@ struct FrontendOptions {
   bool keep_states = false;  // records the TriangleState of each triangle; slower, same triangles
 };
 
-// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. A scene's z01 is the
-// float z / w that most renderers use. ScreenTriangle::z is finer: it does not come from z01 (rule 6).
+// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. What doubles
+// computed is rounded to float here: more than 8 subpixel bits, and new vertices. A scene's z01 is the float
+// z / w that most renderers use. ScreenTriangle::z is finer: it does not come from z01 (rule 6).
 struct UnsnappedTriangle {
   float x_px[3], y_px[3], z01[3];
 };
@@ -113,7 +118,8 @@ class Frontend {
   // one drawable at once.
   //
   // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
-  // - a camera or image size out of range, or matrices that camera.h excludes,
+  // - a camera, image size or number of subpixel bits out of range, or matrices that camera.h excludes,
+  // - a stream with triangles in float and in double,
   // - an instance whose mesh index the scene lacks, or whose matrix is not finite and affine,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,

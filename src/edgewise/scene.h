@@ -130,9 +130,18 @@ struct StreamTriangle {
 };
 static_assert(sizeof(StreamTriangle) == 40);
 
+// The same in double. Floats hold positions of 15 subpixel bits only up to 512 px.
+struct ExactStreamTriangle {
+  glm::dvec3 vertex[3];
+  std::uint32_t colour;
+};
+
 struct TriangleStream {
   int width = 0, height = 0;  // px; the image size that the stream was made for
   std::vector<StreamTriangle> triangles;
+  std::vector<ExactStreamTriangle> exact{};  // in place of `triangles`: one of the two is empty
+
+  std::size_t size() const { return triangles.size() + exact.size(); }
 };
 
 using Drawable = std::variant<Scene, TriangleStream>;

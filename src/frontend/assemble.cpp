@@ -36,8 +36,7 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, const C
                    {a.word[1], b.word[1], c.word[1]},
                    {a.word[2], b.word[2], c.word[2]},
                    counting_from(static_cast<int>(task.first_id + first))},
-                  outside, task.options.cull, out,
-                  task.mesh.flags.empty() ? nullptr : &task.mesh.flags[first]);
+                  outside, task.options, out, task.mesh.flags.empty() ? nullptr : &task.mesh.flags[first]);
   return true;
 }
 

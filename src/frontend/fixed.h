@@ -11,20 +11,34 @@
 
 namespace edgewise {
 
-// A sum with one of these has no fraction bits: the addition rounds half to even, the FPU's default mode, and
-// the sum's bit pattern counts whole units.
-inline constexpr float kRoundFloat = 12582912.0f;           // 1.5 * 2^23, for |v| <= 2^22
-inline constexpr double kRoundDouble = 6755399441055744.0;  // 1.5 * 2^52, for |v| <= 2^51
-
-inline std::int32_t round_half_even(float v) {
-  return std::bit_cast<std::int32_t>(v + kRoundFloat) - std::bit_cast<std::int32_t>(kRoundFloat);
+// Positions with more subpixel bits are computed in double, others in float.
+constexpr bool is_fine(int subpixel_bits) {
+  return subpixel_bits > Coarse::kSubBits;
 }
 
-// Pixels → 2^-15 px with 8 subpixel bits, clamped to the guard band: rounding may put a clipped vertex
-// slightly beyond it.
-inline std::int32_t snap(float px) {
-  constexpr float kLimit = Coarse::kGuardSub;
-  return round_half_even(std::clamp(px * Coarse::kSub, -kLimit, kLimit)) * (1 << Coarse::kSpareBits);
+// GCC 12 drops the conversion of two or more doubles to float and back when it vectorizes it. So a
+// `volatile`.
+inline double rounded_to_float(double v) {
+  const volatile float rounded = static_cast<float>(v);
+  return double{rounded};
+}
+
+// A sum with this has no fraction bits: the addition rounds half to even, the FPU's default mode, and the
+// sum's bit pattern counts whole units.
+inline constexpr double kRoundDouble = 6755399441055744.0;  // 1.5 * 2^52, for |v| <= 2^51
+
+// The same for units of 2^-fraction_bits.
+constexpr double rounding_to(int fraction_bits) {
+  return kRoundDouble / (1 << fraction_bits);
+}
+
+// Pixels → 2^-15 px, clamped to the guard band: rounding may put a clipped vertex slightly beyond it.
+inline std::int32_t snap(double px, int subpixel_bits = Coarse::kSubBits) {
+  constexpr double kGuardPx = contract::kMaxImageSide;
+  const double round = rounding_to(subpixel_bits);
+  const std::uint64_t units = std::bit_cast<std::uint64_t>(std::clamp(px, -kGuardPx, kGuardPx) + round) -
+                              std::bit_cast<std::uint64_t>(round);
+  return static_cast<std::int32_t>(units << (contract::kFineBits - subpixel_bits));
 }
 
 // Units above depth 0, clamped to the range → contract units, half to even. The sum lies between 2^52 and
@@ -37,9 +51,9 @@ inline std::uint32_t round_depth(double units) {
 }
 
 // Depth, clamped to [0, 1] → contract units, half to even for every float: the product is exact (rule 6), so
-// only one operation rounds.
-inline std::uint32_t quantize_depth(float depth01) {
-  return round_depth(double{depth01} * contract::kDepthRange);
+// only one operation rounds. Of other doubles, the result is within 1/2 + 2^-22 units.
+inline std::uint32_t quantize_depth(double depth01) {
+  return round_depth(depth01 * contract::kDepthRange);
 }
 
 // Distance along the view direction, which is w → contract units, clamped to near … far:

@@ -64,6 +64,7 @@ struct Frontend::State {
       if (side < 1 || side > contract::kMaxImageSide)
         throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
                                     std::to_string(contract::kMaxImageSide));
+    check_subpixel_bits(o.subpixel_bits);
     execution = checked(e);
     options = o;
     if (const auto* scene = std::get_if<Scene>(&drawable))

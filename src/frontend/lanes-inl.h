@@ -37,65 +37,107 @@ HWY_INLINE hn::Vec<Tag> in_double(Tag d, F&& f, Vectors... v) {
 #endif
 }
 
+// f() of the arguments in double: four words, whole numbers.
+template <typename F>
+HWY_INLINE Words words_in_double(F&& f, VF x, VF y, VF z) {
+#if HWY_TARGET == HWY_SCALAR
+  const hn::Rebind<double, D> wide;
+  const auto all = f(hn::PromoteTo(wide, x), hn::PromoteTo(wide, y), hn::PromoteTo(wide, z));
+  const auto word = [&](std::size_t k) HWY_ATTR { return hn::DemoteTo(D{}, all[k]); };
+#else
+  const hn::Half<D> half;
+  const hn::Half<DF> half_f;
+  const hn::Rebind<double, hn::Half<D> > wide;
+  const auto low =
+      f(hn::PromoteTo(wide, hn::LowerHalf(half_f, x)), hn::PromoteTo(wide, hn::LowerHalf(half_f, y)),
+        hn::PromoteTo(wide, hn::LowerHalf(half_f, z)));
+  const auto high =
+      f(hn::PromoteTo(wide, hn::UpperHalf(half_f, x)), hn::PromoteTo(wide, hn::UpperHalf(half_f, y)),
+        hn::PromoteTo(wide, hn::UpperHalf(half_f, z)));
+  const auto word = [&](std::size_t k) HWY_ATTR {
+    return hn::Combine(D{}, hn::DemoteTo(half, high[k]), hn::DemoteTo(half, low[k]));
+  };
+#endif
+  return {{word(0), word(1), word(2), word(3)}};
+}
+
 // snap(), quantize_depth() and ViewDepth::units() of fixed.h, for vectors.
 
-HWY_INLINE V snap(VF px) {
-  const DF d;
-  const VF limit = hn::Set(d, static_cast<float>(Coarse::kGuardSub));
-  const VF sub = hn::Mul(px, hn::Set(d, static_cast<float>(Coarse::kSub)));
-  const VF magic = hn::Set(d, kRoundFloat);
-  const VF rounded = hn::Add(hn::Min(hn::Max(sub, hn::Neg(limit)), limit), magic);
-  return hn::ShiftLeft<Coarse::kSpareBits>(hn::Sub(hn::BitCast(D{}, rounded), hn::BitCast(D{}, magic)));
+// The floats are rounded once, so this is exact for all numbers of bits. Only valid within the guard band.
+HWY_INLINE V snap(VF px, int bits) {
+#if HWY_TARGET == HWY_SCALAR  // Highway 1.0.3 rounds 0.49999997 up there
+  return hn::Set(D{}, edgewise::snap(double{hn::GetLane(px)}, bits));
+#else
+  const V sub = hn::NearestInt(hn::Mul(px, hn::Set(DF{}, static_cast<float>(1 << bits))));
+  return hn::ShiftLeftSame(sub, contract::kFineBits - bits);
+#endif
+}
+
+// Units above depth 0 → whole ones, half to even.
+template <class Doubles>
+HWY_INLINE Doubles whole_units(Doubles units) {
+  const Doubles magic = hn::Set(hn::DFromV<Doubles>{}, kRoundDouble);
+  return hn::Sub(hn::Add(units, magic), magic);
+}
+template <class Doubles>
+HWY_INLINE Doubles within_range(Doubles units) {
+  const hn::DFromV<Doubles> d;
+  return hn::Min(hn::Max(units, hn::Zero(d)), hn::Set(d, double{contract::kDepthRange}));
+}
+HWY_INLINE V above_head_room(V units) {
+  return hn::Add(units, hn::Set(D{}, contract::kDepthHead));
 }
 
 // units(v…) in double, rounded half to even, above the head-room.
 template <typename Units, class... Vectors>
 HWY_INLINE V round_depth(Units&& units, Vectors... v) {
-  const auto whole_units = [&](auto... wide_v) HWY_ATTR {
-    auto exact = units(wide_v...);
-    const auto magic = hn::Set(hn::DFromV<decltype(exact)>{}, kRoundDouble);
-    return hn::Sub(hn::Add(exact, magic), magic);
-  };
-  return hn::Add(in_double(D{}, whole_units, v...), hn::Set(D{}, contract::kDepthHead));
+  return above_head_room(in_double(
+      D{}, [&](auto... wide_v) HWY_ATTR { return whole_units(units(wide_v...)); }, v...));
 }
 
+// The depths must lie in [0, 1].
 HWY_INLINE V quantize_depth(VF depth01) {
-  const DF d;
-  const VF clamped = hn::Min(hn::Max(depth01, hn::Zero(d)), hn::Set(d, 1.0f));
   const auto units = [](auto v) HWY_ATTR {
     return hn::Mul(v, hn::Set(hn::DFromV<decltype(v)>{}, double{contract::kDepthRange}));
   };
-  return round_depth(units, clamped);
+  return round_depth(units, depth01);
 }
 
 HWY_INLINE V view_depth(const ViewDepth& depth, VF w) {
   const auto units = [&](auto v) HWY_ATTR {
     const hn::DFromV<decltype(v)> d;
-    const auto exact = hn::Div(hn::Mul(hn::Sub(v, hn::Set(d, depth.near_z)), hn::Set(d, depth.scale)), v);
-    return hn::Min(hn::Max(exact, hn::Zero(d)), hn::Set(d, double{contract::kDepthRange}));
+    return within_range(hn::Div(hn::Mul(hn::Sub(v, hn::Set(d, depth.near_z)), hn::Set(d, depth.scale)), v));
   };
   return round_depth(units, w);
 }
 
-// The sign of the area: -1, 0 or 1. Exact in double: with 8 subpixel bits, a product of two differences has
-// at most 46 bits that may not be 0.
-HWY_INLINE V area_sign(const TriangleLanes& t) {
-  const auto sign = [](auto dx1, auto dy1, auto dx2, auto dy2) HWY_ATTR {
-    const hn::DFromV<decltype(dx1)> d;
-    const auto area = hn::Sub(hn::Mul(dx1, dy2), hn::Mul(dy1, dx2));
-    return hn::Min(hn::Max(area, hn::Set(d, -1.0)), hn::Set(d, 1.0));
+// The sign of the area: -1, 0 or 1. A product of two differences has at most 60 bits, of coarse positions 46,
+// which are exact in double. Rounded products are in the right order, but may be equal. Then the difference
+// is so small that it does not wrap in 32 bits.
+HWY_INLINE V area_sign(const TriangleLanes& t, bool fine) {
+  const D d;
+  const V dx1 = hn::Sub(t.x[1], t.x[0]), dy1 = hn::Sub(t.y[1], t.y[0]), dx2 = hn::Sub(t.x[2], t.x[0]),
+          dy2 = hn::Sub(t.y[2], t.y[0]);
+  const auto sign = [](auto area) HWY_ATTR {
+    const hn::DFromV<decltype(area)> tag;
+    return hn::Min(hn::Max(area, hn::Set(tag, -1)), hn::Set(tag, 1));
   };
-  return in_double(D{}, sign, hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0]),
-                   hn::Sub(t.y[2], t.y[0]));
+  const auto difference = [](auto x1, auto y1, auto x2, auto y2)
+                              HWY_ATTR { return hn::Sub(hn::Mul(x1, y2), hn::Mul(y1, x2)); };
+  const V rounded = in_double(
+      d, [&](auto... v) HWY_ATTR { return sign(difference(v...)); }, dx1, dy1, dx2, dy2);
+  if (!fine) return rounded;
+  return hn::IfThenElse(hn::Eq(rounded, hn::Zero(d)), sign(difference(dx1, dy1, dx2, dy2)), rounded);
 }
 
 // The last step of assemble.cpp and stream.cpp. Appends a vector of triangles that need no clipping, in
 // order. Drops triangles without area or with the wrong facing, and those that `outside` selects, which lie
 // beyond a side of the view. `flags` points to the triangles' flags, or is null.
-HWY_INLINE void cull_and_append(const TriangleLanes& t, hn::Mask<D> outside, Cull cull, ChunkOutput& out,
-                                const std::uint8_t* flags = nullptr) {
+HWY_INLINE void cull_and_append(const TriangleLanes& t, hn::Mask<D> outside, const FrontendOptions& options,
+                                ChunkOutput& out, const std::uint8_t* flags = nullptr) {
   const D d;
-  const V sign = area_sign(t);
+  const V sign = area_sign(t, is_fine(options.subpixel_bits));
+  const Cull cull = options.cull;
   const V front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : 2);
   const V back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : 2);
   hn::Mask<D> faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));

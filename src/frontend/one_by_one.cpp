@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "edgewise/contract.h"
 #include "frontend/clip.h"
@@ -13,9 +14,15 @@ namespace {
 
 // A vertex before snapping.
 struct Unsnapped {
-  float x_px, y_px, z01;
+  double x_px, y_px, z01;
   SourceVertex source;
 };
+
+// Of a new vertex.
+glm::dvec2 position_px(const ClipVertex& v, bool fine) {
+  const glm::dvec2 px(v.x / v.w, v.y / v.w);
+  return fine ? px : glm::dvec2(rounded_to_float(px.x), rounded_to_float(px.y));
+}
 
 bool faces_away(std::int64_t area, Cull cull) {
   return cull == Cull::both || (cull == Cull::front && area > 0) || (cull == Cull::back && area < 0);
@@ -43,9 +50,11 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
     ++stats.emitted;
     if (options.keep_unsnapped || out.sources != nullptr) {
       const Unsnapped u = unsnapped(0), v = unsnapped(1), w = unsnapped(2);
+      const auto real = [](double value) { return static_cast<float>(value); };
       if (options.keep_unsnapped)
-        out.unsnapped[out.count] = {
-            {u.x_px, v.x_px, w.x_px}, {u.y_px, v.y_px, w.y_px}, {u.z01, v.z01, w.z01}};
+        out.unsnapped[out.count] = {{real(u.x_px), real(v.x_px), real(w.x_px)},
+                                    {real(u.y_px), real(v.y_px), real(w.y_px)},
+                                    {real(u.z01), real(v.z01), real(w.z01)}};
       if (out.sources != nullptr) out.sources->push_back({u.source, v.source, w.source});
     }
     out.triangles[out.count++] = t;
@@ -85,7 +94,9 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   }
   std::array<Vertex, Clipper::kMaxVertices> snapped;
   std::transform(polygon.begin(), polygon.end(), snapped.begin(), [&](const ClipVertex& v) {
-    return v.corner >= 0 ? corners[v.corner] : Vertex{snap(x_px(v)), snap(y_px(v)), geometry.depth(v), 0};
+    if (v.corner >= 0) return corners[v.corner];
+    const glm::dvec2 at = position_px(v, geometry.fine);
+    return Vertex{snap(at.x, options.subpixel_bits), snap(at.y, options.subpixel_bits), geometry.depth(v), 0};
   });
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
@@ -93,7 +104,8 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
     emit(snapped[at[0]], snapped[at[1]], snapped[at[2]], source, options, out, [&](std::size_t k) {
       const ClipVertex& v = polygon[at[k]];
       if (v.corner >= 0) return geometry.unsnapped(v.corner);
-      return Unsnapped{x_px(v), y_px(v), geometry.depth01(v), {v.z, v.w, clipper.weights(v)}};
+      const glm::dvec2 position = position_px(v, geometry.fine);
+      return Unsnapped{position.x, position.y, geometry.depth01(v), {v.z, v.w, clipper.weights(v)}};
     });
   }
 }
@@ -137,6 +149,7 @@ void add_and_record_state(const Task& task, std::size_t triangle, ChunkOutput& o
 struct MeshGeometry {
   const MeshTask& task;
   const ViewVolume& view = task.view;
+  const bool fine = task.is_fine();
   glm::uvec3 triangle;
 
   glm::vec3 position(int k) const { return task.mesh.positions[triangle[k]]; }
@@ -145,38 +158,60 @@ struct MeshGeometry {
     return task.to_screen.has_z ? v.z / v.w * contract::kDepthRange : task.depth.above_near(v.w);
   }
   std::uint32_t depth(const ClipVertex& v) const { return round_depth(above_near(v)); }
-  float depth01(const ClipVertex& v) const {
-    return static_cast<float>(above_near(v) / contract::kDepthRange);
-  }
+  double depth01(const ClipVertex& v) const { return above_near(v) / contract::kDepthRange; }
   Unsnapped unsnapped(int k) const {
+    const ClipVertex exact = clip_vertex(k);
+    if (fine) {
+      const double inverse_w = 1.0 / exact.w;
+      return {
+          exact.x * inverse_w, exact.y * inverse_w, depth01(exact), {exact.z, exact.w, weights_of_corner(k)}};
+    }
     const glm::vec3 v = transform(task.to_screen, position(k));
     const float inverse_w = 1.0f / v.z;
-    const ClipVertex c = task.to_screen.has_z ? clip_vertex(k) : as_clip_vertex(v);
-    return {v.x * inverse_w, v.y * inverse_w, depth01(c), {c.z, double{v.z}, weights_of_corner(k)}};
+    const ClipVertex c = task.to_screen.has_z ? exact : as_clip_vertex(v);
+    return {double{v.x * inverse_w},
+            double{v.y * inverse_w},
+            depth01(c),
+            {c.z, double{v.z}, weights_of_corner(k)}};
   }
 };
 
+template <typename Triangle>
 struct StreamGeometry {
-  const StreamTriangle& triangle;
+  const Triangle& triangle;
   ViewVolume view;
+  int bits;
+  const bool fine = std::is_same_v<Triangle, ExactStreamTriangle> || is_fine(bits);
 
   ClipVertex clip_vertex(int k) const {
     const glm::dvec3 v(triangle.vertex[k]);
     return {v.x, v.y, v.z, 1.0};
   }
   std::uint32_t depth(const ClipVertex& v) const { return quantize_depth(depth01(v)); }
-  float depth01(const ClipVertex& v) const { return static_cast<float>(v.z); }
+  double depth01(const ClipVertex& v) const { return fine ? v.z : rounded_to_float(v.z); }
   Unsnapped unsnapped(int k) const {
-    const glm::vec3 v = triangle.vertex[k];
-    return {v.x, v.y, v.z, {double{v.z}, 1.0, weights_of_corner(k)}};
+    const ClipVertex v = clip_vertex(k);
+    return {v.x, v.y, v.z, {v.z, 1.0, weights_of_corner(k)}};
   }
   Vertex vertex(int k) const {
-    const std::uint32_t outside = outside_of(clip_vertex(k), view);
-    const glm::vec3 v = triangle.vertex[k];
+    const ClipVertex v = clip_vertex(k);
+    const std::uint32_t outside = outside_of(v, view);
     if ((outside & (kMustClip | kNotFinite)) != 0) return {0, 0, 0, outside};
-    return {snap(v.x), snap(v.y), quantize_depth(v.z), outside};
+    return {snap(v.x, bits), snap(v.y, bits), quantize_depth(v.z), outside};
   }
 };
+
+template <typename Triangle>
+void add_one(const StreamTask& task, const Triangle& t, std::size_t index, ChunkOutput& out) {
+  const FrontendOptions& options = task.options;
+  const StreamGeometry<Triangle> geometry{
+      t, {double(options.width), double(options.height), 0.0, 1.0}, options.subpixel_bits};
+  const bool ids = options.payload == Payload::id;
+  const Source source{ids ? options.first_id + static_cast<std::uint32_t>(index) : t.colour, options.cull};
+  add_and_record_state(task, index, out, [&] {
+    add({geometry.vertex(0), geometry.vertex(1), geometry.vertex(2)}, source, options, out, geometry);
+  });
+}
 
 }  // namespace
 
@@ -189,14 +224,10 @@ void add_one(const MeshTask& task, std::size_t triangle, const Vertex (&corners)
 }
 
 void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out) {
-  const StreamTriangle& t = task.stream.triangles[triangle];
-  const StreamGeometry geometry{t, {double(task.options.width), double(task.options.height), 0.0, 1.0}};
-  const bool ids = task.options.payload == Payload::id;
-  const Source source{ids ? task.options.first_id + static_cast<std::uint32_t>(triangle) : t.colour,
-                      task.options.cull};
-  add_and_record_state(task, triangle, out, [&] {
-    add({geometry.vertex(0), geometry.vertex(1), geometry.vertex(2)}, source, task.options, out, geometry);
-  });
+  if (task.stream.exact.empty())
+    add_one(task, task.stream.triangles[triangle], triangle, out);
+  else
+    add_one(task, task.stream.exact[triangle], triangle, out);
 }
 
 }  // namespace edgewise

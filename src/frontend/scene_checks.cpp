@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "edgewise/frontend.h"
 #include "edgewise/limits.h"
 
 namespace edgewise {
@@ -16,6 +17,17 @@ std::size_t checked_count(std::size_t triangles, std::uint32_t first_id) {
     throw std::invalid_argument("the ids of " + std::to_string(triangles) + " triangles, from " +
                                 std::to_string(first_id) + " on, reach " + std::to_string(kMaxTriangles));
   return triangles;
+}
+
+void check_subpixel_bits(int bits) {
+  if (bits < kMinSubpixelBits || bits > kMaxSubpixelBits)
+    throw std::invalid_argument(std::to_string(bits) + " subpixel bits are outside " +
+                                std::to_string(kMinSubpixelBits) + " to " + std::to_string(kMaxSubpixelBits));
+}
+
+void check(const TriangleStream& stream) {
+  if (!stream.triangles.empty() && !stream.exact.empty())
+    throw std::invalid_argument("a stream has triangles in float and in double");
 }
 
 const Mesh& mesh_of(const Scene& scene, const Instance& instance) {

@@ -12,6 +12,11 @@ namespace edgewise {
 // Returns `triangles` unless a frame cannot have so many, with ids from `first_id` on.
 std::size_t checked_count(std::size_t triangles, std::uint32_t first_id = 0);
 
+// FrontendOptions::subpixel_bits.
+void check_subpixel_bits(int bits);
+// One of its two lists is empty.
+void check(const TriangleStream& stream);
+
 const Mesh& mesh_of(const Scene& scene, const Instance& instance);
 
 // `what` names what is counted.

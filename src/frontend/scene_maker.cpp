@@ -73,7 +73,7 @@ void SceneMaker::start_instance(Worker& w, std::size_t instance) {
   w.task.emplace(MeshTask{.options = *options_,
                           .mesh = mesh,
                           .view = view_->volume,
-                          .to_screen = {*view_, model},
+                          .to_screen = {*view_, model, is_fine(options_->subpixel_bits)},
                           .depth = view_->depth,
                           .first_id = options_->first_id + static_cast<std::uint32_t>(first),
                           .states = states_ != nullptr ? states_ + first : nullptr});

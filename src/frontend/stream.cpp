@@ -58,11 +58,12 @@ HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, ChunkOu
       hn::And(within(z, 0.0f, 1.0f), hn::And(within(x, -kGuardPx, kGuardPx), within(y, -kGuardPx, kGuardPx)));
   if (!hn::AllTrue(DF{}, plain)) return false;
   const bool ids = options.payload == Payload::id;
-  cull_and_append({{snap(x[0]), snap(x[1]), snap(x[2])},
-                   {snap(y[0]), snap(y[1]), snap(y[2])},
+  const int bits = options.subpixel_bits;
+  cull_and_append({{snap(x[0], bits), snap(x[1], bits), snap(x[2], bits)},
+                   {snap(y[0], bits), snap(y[1], bits), snap(y[2], bits)},
                    {quantize_depth(z[0]), quantize_depth(z[1]), quantize_depth(z[2])},
                    ids ? counting_from(static_cast<int>(options.first_id + first)) : t.payload},
-                  hn::Or(beyond(x, options.width), beyond(y, options.height)), options.cull, out);
+                  hn::Or(beyond(x, options.width), beyond(y, options.height)), options, out);
   return true;
 }
 

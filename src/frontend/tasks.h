@@ -14,6 +14,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/simd_target.h"
 #include "frontend/clip.h"
+#include "frontend/fixed.h"
 #include "frontend/view.h"
 
 namespace edgewise {
@@ -29,6 +30,7 @@ struct MeshTask {
 
   // True if add_one() must handle every triangle.
   bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
+  bool is_fine() const { return edgewise::is_fine(options.subpixel_bits); }
 };
 
 struct StreamTask {
@@ -36,7 +38,7 @@ struct StreamTask {
   const TriangleStream& stream;
   TriangleState* states = nullptr;  // as in MeshTask
 
-  bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
+  bool one_by_one() const { return options.keep_unsnapped || states != nullptr || !stream.exact.empty(); }
 };
 
 // Triangles that are made together: their output stays in the L2 cache until it is shaded, or binned.

@@ -13,7 +13,7 @@ namespace edgewise {
 // x and y in pixels times w, and w, of one vertex, with the same order of operations as every SIMD target.
 inline glm::vec3 transform(const ScreenTransform& to_screen, glm::vec3 position) {
   const glm::mat4x3& m = to_screen.rounded;
-  const glm::vec3 p = position - to_screen.origin;
+  const glm::vec3 p = position - glm::vec3(to_screen.origin);
   const auto row = [&](int r) { return m[0][r] * p.x + m[1][r] * p.y + m[2][r] * p.z + m[3][r]; };
   return {row(0), row(1), row(2)};
 }

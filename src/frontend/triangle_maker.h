@@ -65,9 +65,10 @@ class StreamMaker final : public TriangleMaker {
  public:
   // The arguments must outlive the frame. Throws as Frontend::run() does.
   void set(const TriangleStream& stream, const FrontendOptions& options, SimdTarget target) {
+    check(stream);
     stream_ = &stream, options_ = &options, kernel_ = stream_kernel(target);
   }
-  std::size_t size() const override { return stream_->triangles.size(); }
+  std::size_t size() const override { return stream_->size(); }
   void append(int, std::size_t begin, std::size_t end, ChunkOutput& out) override {
     kernel_({*options_, *stream_, states_}, begin, end, out);
   }

@@ -35,7 +35,7 @@ bool are_orthogonal(const glm::dmat3& axes) {
 
 // The point that an instance puts at `world`. Any point near it will do: 0 stands for a coordinate that no
 // point has, because the instance is flat, or that is so large that a float minus it may overflow.
-glm::vec3 model_point(const glm::dmat3& axes, glm::dvec3 world) {
+glm::dvec3 model_point(const glm::dmat3& axes, glm::dvec3 world) {
   glm::dvec3 at;
   if (are_orthogonal(axes)) {
     const glm::dvec3 along = world * axes;
@@ -45,16 +45,22 @@ glm::vec3 model_point(const glm::dmat3& axes, glm::dvec3 world) {
     constexpr double kLongest = 16.0;
     at = glm::inverse(axes) * world;
     for (int i = 0; i < 3; ++i)
-      if (!(std::abs(at[i]) * glm::length(axes[i]) <= kLongest * glm::length(world))) return glm::vec3(0.0f);
+      if (!(std::abs(at[i]) * glm::length(axes[i]) <= kLongest * glm::length(world))) return glm::dvec3(0.0);
   }
-  const auto coordinate = [&](int i) { return std::abs(at[i]) < 0x1p103 ? static_cast<float>(at[i]) : 0.0f; };
+  const auto coordinate = [&](int i) { return std::abs(at[i]) < 0x1p103 ? at[i] : 0.0; };
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
-// Clip space → x and y in pixels times w, and w.
-glm::dmat3 viewport(int width_px, int height_px) {
+// Clip space → x and y in pixels times w, z, and w.
+glm::dmat4 viewport(int width_px, int height_px) {
   const double half_w = width_px / 2.0, half_h = height_px / 2.0;
-  return {half_w, 0, 0, 0, -half_h, 0, half_w, half_h, 1};
+  return {half_w, 0, 0, 0, 0, -half_h, 0, 0, 0, 0, 1, 0, half_w, half_h, 0, 1};
+}
+
+// Matrices beyond this range are beyond usual far planes too, and products must not overflow.
+glm::dmat4 within_range(glm::dmat4 m) {
+  for (int i = 0; i < 4; ++i) m[i] = glm::clamp(m[i], -0x1p400, 0x1p400);
+  return m;
 }
 
 glm::dvec3 xyw(glm::dvec4 v) {
@@ -124,7 +130,12 @@ View::View(const Camera& camera, int width_px, int height_px)
     : volume(view_volume(camera, width_px, height_px)),
       depth(volume.near_z, volume.far_z),
       pixels(pixels_of(camera, width_px, height_px)),
-      origin(camera.position) {}
+      origin(camera.position) {
+  glm::dmat4 rows(0.0), from_origin(1.0);
+  for (int i = 0; i < 3; ++i) rows[i] = glm::dvec4(pixels[i].x, pixels[i].y, 0.0, pixels[i].z);
+  from_origin[3] = glm::dvec4(-origin, 1.0);
+  to_pixels = PairMatrix(rows) * PairMatrix(within_range(from_origin));
+}
 
 View::View(const Scene& scene, int width_px, int height_px)
     : View(scene.matrices ? View(*scene.matrices, width_px, height_px)
@@ -153,8 +164,10 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
   origin = is_usual ? glm::dvec3(from_view[3]) : glm::dvec3(to_world * corner) * least_w;
   if (!has_inverse(to_clip, origin)) throw std::invalid_argument(kSingular);
 
-  const glm::dmat3 to_pixels = viewport(width_px, height_px);
-  pixels = to_pixels * glm::dmat3(xyw(to_clip[0]), xyw(to_clip[1]), xyw(to_clip[2]));
+  const glm::dmat4 to_image = viewport(width_px, height_px);
+  const glm::dmat3 xyw_to_image(xyw(to_image[0]), xyw(to_image[1]), xyw(to_image[3]));
+  pixels = xyw_to_image * glm::dmat3(xyw(to_clip[0]), xyw(to_clip[1]), xyw(to_clip[2]));
+  to_pixels = PairMatrix(to_image) * (PairMatrix(matrices.projection) * PairMatrix(matrices.view));
   if (is_usual) {
     const glm::dmat4& p = matrices.projection;
     const double a = p[2].z / p[2].w, b = p[3].z;  // z / w = a + b / w, so a = far / (far - near)
@@ -167,13 +180,13 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
     depth.near_z = volume.near_z, depth.scale = contract::kDepthRange * a;
     return;
   }
-  at_origin = to_pixels * xyw(corner) * least_w;
+  at_origin = xyw_to_image * xyw(corner) * least_w;
   has_z = true;
   z = {to_clip[0].z, to_clip[1].z, to_clip[2].z, corner.z * least_w};
   if (glm::dvec3(inverse_w) == glm::dvec3(0.0)) axis = glm::dvec3(to_world[2]) * least_w;
 }
 
-ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model) : has_z(view.has_z) {
+ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model, bool fine) : has_z(view.has_z) {
   const glm::dmat3 axes(model);
   // Along the axis, to the point nearest to the instance's origin. NaN if there is no axis.
   const glm::dvec3 place = glm::dvec3(model[3]) - view.origin;
@@ -183,19 +196,28 @@ ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model) : ha
   origin = model_point(axes, towards);
   // A vertex at such a distance is beyond usual far planes, and must not become infinite or NaN.
   constexpr double kLargest = 0x1p125, kLargestOffset = 0x1p200;
-  const glm::dvec3 offset = glm::clamp(axes * glm::dvec3(origin) - towards, -kLargestOffset, kLargestOffset);
-  for (int i = 0; i < 3; ++i) exact[i] = view.pixels * axes[i];
-  exact[3] = view.pixels * offset + view.at_origin;
+  if (fine) {
+    PairMatrix m = view.to_pixels * PairMatrix(within_range(model));
+    m[3] = m * glm::tvec4<DoublePair>(glm::dvec4(origin, 1.0));
+    for (int i = 0; i < 4; ++i) {
+      const glm::dvec4 column(m[i]);
+      exact[i] = xyw(column), z[i] = column.z, w[i] = column.w;
+    }
+  } else {
+    for (int i = 0; i < 3; ++i) origin[i] = rounded_to_float(origin[i]);
+    const glm::dvec3 offset = glm::clamp(axes * origin - towards, -kLargestOffset, kLargestOffset);
+    const glm::dvec3 z_of(view.z);
+    for (int i = 0; i < 3; ++i) exact[i] = view.pixels * axes[i];
+    exact[3] = view.pixels * offset + view.at_origin;
+    z = glm::dvec4(z_of * axes, glm::dot(z_of, offset + along) + view.z.w);
+    w = glm::dvec4(exact[0].z, exact[1].z, exact[2].z, exact[3].z);
+    z = glm::clamp(z, -kLargestOffset, kLargestOffset), w = glm::clamp(w, -kLargestOffset, kLargestOffset);
+  }
   for (int i = 0; i < 4; ++i) rounded[i] = glm::clamp(exact[i], -kLargest, kLargest);
-  if (!has_z) return;
-  const glm::dvec3 z_of(view.z);
-  z = glm::dvec4(z_of * axes, glm::dot(z_of, offset + along) + view.z.w);
-  w = glm::dvec4(exact[0].z, exact[1].z, exact[2].z, exact[3].z);
-  z = glm::clamp(z, -kLargestOffset, kLargestOffset), w = glm::clamp(w, -kLargestOffset, kLargestOffset);
 }
 
 ClipVertex ScreenTransform::operator()(glm::vec3 position) const {
-  const glm::dvec4 p(glm::dvec3(position) - glm::dvec3(origin), 1.0);
+  const glm::dvec4 p(glm::dvec3(position) - origin, 1.0);
   const glm::dvec3 v = exact * p;
   return {v.x, v.y, has_z ? glm::dot(z, p) : v.z, v.z};
 }

@@ -5,6 +5,7 @@
 
 #include "edgewise/scene.h"
 #include "frontend/clip.h"
+#include "frontend/double_pair.h"
 
 namespace edgewise {
 
@@ -43,18 +44,21 @@ struct View {
   // If w is the same everywhere: from the origin, in the middle of the near plane, to the middle of the far
   // plane. Along this axis, only z changes. Otherwise 0.
   glm::dvec3 axis{0.0};
+  // All of it: world space → x and y in pixels times w, z, and w.
+  PairMatrix to_pixels;
 };
 
 // Model space → pixels times w, and w, the distance along the view direction (rule 10). A point in the view,
 // which is the camera's position if z is w, is subtracted from a vertex before anything else is rounded.
 struct ScreenTransform {
-  // `model` is an instance's model_matrix().
-  ScreenTransform(const View& view, const glm::dmat4& model);
+  // `model` is an instance's model_matrix(). If `fine`, the elements of `exact` and z are those of the
+  // product of the camera's and the instance's matrices, rounded once.
+  ScreenTransform(const View& view, const glm::dmat4& model, bool fine = false);
 
-  // In double, for the vertices of triangles that must be clipped.
+  // In double: all vertices if `fine`, otherwise those of triangles that must be clipped.
   ClipVertex operator()(glm::vec3 position) const;
 
-  glm::vec3 origin;     // that point in model space, as far as floats represent it
+  glm::dvec3 origin;    // near that point in model space; unless `fine`, floats
   glm::dmat4x3 exact;   // position - origin → x, y, w
   glm::mat4x3 rounded;  // the same, within the range of float
   // As in View; position - origin → z and w, in double.

@@ -89,7 +89,8 @@ class Triangles {
       : options_(options), target_(target), scene_(std::get_if<Scene>(&drawable)) {
     if (scene_ == nullptr) {
       stream_ = &std::get<TriangleStream>(drawable);
-      count_ = checked_count(stream_->triangles.size(), options.first_id);
+      check(*stream_);
+      count_ = checked_count(stream_->size(), options.first_id);
       return;
     }
     view_.emplace(*scene_, options.width, options.height);
@@ -142,12 +143,13 @@ class Triangles {
       const Scene& scene = *all_.scene_;
       const Instance& instance = scene.instances[index];
       const Mesh& mesh = scene.meshes[instance.mesh];
-      task_.emplace(MeshTask{.options = all_.options_,
-                             .mesh = mesh,
-                             .view = all_.view_->volume,
-                             .to_screen = {*all_.view_, model_matrix(mesh, instance)},
-                             .depth = all_.view_->depth,
-                             .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
+      task_.emplace(MeshTask{
+          .options = all_.options_,
+          .mesh = mesh,
+          .view = all_.view_->volume,
+          .to_screen = {*all_.view_, model_matrix(mesh, instance), is_fine(all_.options_.subpixel_bits)},
+          .depth = all_.view_->depth,
+          .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
     }
 
     const Triangles& all_;
@@ -206,6 +208,7 @@ void check(const FrontendOptions& options, const ConstFrameView& ids, const Bary
     throw std::invalid_argument("options for " + std::to_string(options.width) + " x " +
                                 std::to_string(options.height) + " px, but a frame of " +
                                 std::to_string(ids.width) + " x " + std::to_string(ids.height) + " px");
+  check_subpixel_bits(options.subpixel_bits);
   if (options.payload != Payload::id)
     throw std::invalid_argument("barycentric coordinates need a frame of ids: Payload::id");
   if (out.uv == nullptr && out.distance == nullptr)

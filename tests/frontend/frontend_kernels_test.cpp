@@ -102,7 +102,7 @@ void expect_within_the_contract(std::span<const ScreenTriangle> triangles) {
     }
 }
 
-void expect_all_alike(const Drawable& drawable, const FrontendOptions& options) {
+void expect_alike(const Drawable& drawable, const FrontendOptions& options) {
   const auto expected = one_by_one(drawable, options);
   expect_within_the_contract(expected);
   const FrontendStats stats = run(drawable, options, {.target = SimdTarget::scalar}).stats;
@@ -116,6 +116,13 @@ void expect_all_alike(const Drawable& drawable, const FrontendOptions& options) 
       expect_same_triangles(expected, found.triangles, what);
       EXPECT_EQ(std::memcmp(&stats, &found.stats, sizeof stats), 0) << what;
     }
+}
+
+void expect_all_alike(const Drawable& drawable, FrontendOptions options) {
+  for (const int bits : {8, 4, 12, 15}) {
+    options.subpixel_bits = bits;
+    expect_alike(drawable, options);
+  }
 }
 
 TEST(FrontendKernels, MeshesAreTheSameOnEveryTargetAndThreadCount) {
@@ -148,6 +155,58 @@ TEST(FrontendKernels, StreamsAreTheSameOnEveryTargetAndThreadCount) {
   for (const Cull cull : {Cull::none, Cull::back, Cull::front})
     for (const Payload payload : {Payload::colour, Payload::id})
       expect_all_alike(random_triangles(), {.width = 640, .height = 480, .cull = cull, .payload = payload});
+}
+
+// The vertices are multiples of 2^-15 px, which 4 and 8 bits round.
+TEST(FrontendKernels, PositionsUseTheSubpixelBits) {
+  for (const Drawable& drawable : {Drawable(random_scene(false)), Drawable(random_triangles())})
+    for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits) {
+      const auto triangles = run(drawable, {.width = 640, .height = 480, .subpixel_bits = bits}).triangles;
+      std::int32_t used = 0;
+      for (const ScreenTriangle& t : triangles)
+        for (int k = 0; k < 3; ++k) used |= t.x_q15[k] | t.y_q15[k];
+      EXPECT_EQ(used & ((1 << contract::kFineBits) - 1),
+                (1 << contract::kFineBits) - (1 << (contract::kFineBits - bits)));
+    }
+}
+
+TriangleStream in_double(const TriangleStream& stream) {
+  TriangleStream exact{stream.width, stream.height, {}};
+  for (const StreamTriangle& t : stream.triangles)
+    exact.exact.push_back(
+        {{glm::dvec3(t.vertex[0]), glm::dvec3(t.vertex[1]), glm::dvec3(t.vertex[2])}, t.colour});
+  return exact;
+}
+
+TEST(FrontendKernels, StreamsInDoubleAreTheSameOnEveryTargetAndThreadCount) {
+  const TriangleStream stream = random_triangles(), exact = in_double(stream);
+  const FrontendOptions options{.width = 640, .height = 480, .cull = Cull::none};
+  expect_all_alike(exact, options);
+  FrontendOptions fine = options;
+  fine.subpixel_bits = 15;
+  expect_same_triangles(run(stream, fine).triangles, run(exact, fine).triangles, "floats in double");
+}
+
+// Of positions that floats don't hold.
+TEST(FrontendKernels, StreamsInDoubleAreRoundedOnce) {
+  Random random(5);
+  for (const int bits : {4, 8, 12, 15}) {
+    TriangleStream stream{640, 480, {}};
+    for (int i = 0; i < 1000; ++i) {
+      auto& t = stream.exact.emplace_back();
+      for (auto& v : t.vertex)
+        v = {512 + 100 * static_cast<double>(random.next() >> 11) * 0x1p-53, random.uniform(0, 480), 0.5};
+    }
+    const auto triangles =
+        run(stream,
+            {.width = 640, .height = 480, .subpixel_bits = bits, .cull = Cull::none, .payload = Payload::id})
+            .triangles;
+    EXPECT_GT(triangles.size(), 900u);
+    for (const ScreenTriangle& t : triangles)
+      for (int k = 0; k < 3; ++k)
+        ASSERT_EQ(t.x_q15[k],
+                  std::nearbyint(std::ldexp(stream.exact[t.payload].vertex[k].x, bits)) * (1 << (15 - bits)));
+  }
 }
 
 // A float in [0, 1] in contract units, rounded half to even in integer arithmetic.

@@ -58,15 +58,19 @@ void expect_consistent(const FrontendStats& s) {
 }
 
 TEST(Snap, RoundsHalfToEvenAndClampsToTheGuardBand) {
-  const auto expected = [](float px) {
-    return static_cast<std::int32_t>(std::nearbyint(std::clamp(double{px}, -16384.0, 16384.0) * 256.0)) * 128;
-  };
-  for (const float px : {0.5f / 256, 1.5f / 256, 2.5f / 256, -0.5f / 256, -1.5f / 256, 1e30f, -1e30f})
-    EXPECT_EQ(snap(px), expected(px));
   Random random(1);
-  for (int i = 0; i < 1'000'000; ++i) {
-    const float px = random.uniform(-16400.0f, 16400.0f);
-    ASSERT_EQ(snap(px), expected(px)) << px;
+  for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits) {
+    const auto expect_snapped = [&](double px) {
+      const double units = std::nearbyint(std::ldexp(std::clamp(px, -16384.0, 16384.0), bits));
+      ASSERT_EQ(snap(px, bits), std::ldexp(units, contract::kFineBits - bits))
+          << px << ", " << bits << " bits";
+    };
+    for (const double units : {0.5, 1.5, 2.5, -0.5, -1.5, 1e30, -1e30, 0.49999997})
+      expect_snapped(std::ldexp(units, -bits));
+    for (int i = 0; i < 100'000; ++i) {
+      expect_snapped(double{random.uniform(-16400.0f, 16400.0f)});
+      expect_snapped(std::ldexp(static_cast<double>(random.next() >> 11), -38) - 16384.0);
+    }
   }
 }
 
@@ -303,6 +307,8 @@ TEST(Frontend, RefusesInvalidInput) {
   };
   expect_refused([](Scene&, FrontendOptions& o) { o.width = 0; });
   expect_refused([](Scene&, FrontendOptions& o) { o.height = 16385; });
+  expect_refused([](Scene&, FrontendOptions& o) { o.subpixel_bits = kMinSubpixelBits - 1; });
+  expect_refused([](Scene&, FrontendOptions& o) { o.subpixel_bits = kMaxSubpixelBits + 1; });
   expect_refused([](Scene& s, FrontendOptions&) { s.camera.fov_y = 0.0f; });
   expect_refused([](Scene& s, FrontendOptions&) { s.camera.near_z = 0.0f; });
   expect_refused([](Scene& s, FrontendOptions&) { s.camera.far_z = s.camera.near_z; });

@@ -9,6 +9,7 @@
 
 #include "core/grid.h"
 #include "edgewise/contract.h"
+#include "frontend/fixed.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
 #include "lab/needs/ranges.h"
@@ -73,12 +74,6 @@ Depths depths_of(const Pipeline& pipeline) {
   return ours ? Depths::ours : Depths::distance;
 }
 
-std::int32_t snap_to(float px, int bits) {
-  constexpr float kLimit = contract::kMaxImageSide;
-  return edgewise::round_half_even(std::clamp(px, -kLimit, kLimit) * static_cast<float>(1 << bits)) *
-         (1 << (contract::kFineBits - bits));
-}
-
 double area_px(const VisibilityTriangle& t) {
   const float qx = t.x_px[1] - t.x_px[0], qy = t.y_px[1] - t.y_px[0], rx = t.x_px[2] - t.x_px[0],
               ry = t.y_px[2] - t.y_px[0];
@@ -132,7 +127,7 @@ class Assembly {
         ray = in_mesh_space(glm::dmat3(model), centre - scene.camera.position);
       } else if (test == kNormalDotEye) {
         scale = glm::determinant(glm::dmat3(model)) < 0.0 ? -1.0f : 1.0f;
-        ray = -scale * to_screen.origin;
+        ray = -scale * glm::vec3(to_screen.origin);
       }
       bool front = true;
       for (std::size_t i = 0; i < mesh.triangles.size(); ++i, ++id) {
@@ -169,7 +164,7 @@ class Assembly {
     ProjectedVertex v{x_px, y_px, 0.0, {0, 0, 0, kNowhere}};
     if (!std::isfinite(x_px) || !std::isfinite(y_px)) return v;
     const int bits = pipeline_[kSubpixel];
-    v.snapped = {snap_to(x_px, bits), snap_to(y_px, bits), 0, 0};
+    v.snapped = {snap(double{x_px}, bits), snap(double{y_px}, bits), 0, 0};
     if (depths_ == Depths::ours)
       v.snapped.z = stream_ ? quantize_depth(static_cast<float>(z)) : depth_.units(z);
     else if (depths_ == Depths::distance)
