@@ -68,6 +68,7 @@ class Method:
     max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
     simd_note: str = ""  # coverage: why there is no SIMD form
     engine: bool = False  # our SIMD engine with one kind of numbers
+    other_bits: bool = False  # projection: one of many subpixel bits
 
     @property
     def limit_px(self):
@@ -82,7 +83,7 @@ class Method:
     @property
     def apart(self):
         """Whether only the main chart shows it, not the charts of methods."""
-        return self.engine or self.peer
+        return self.engine or self.peer or self.other_bits
 
     @property
     def ours(self):
@@ -281,7 +282,7 @@ def times_of(bench):
 def parse_accuracy(data, bench=None):
     times = times_of(bench)
     methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]), m.get("max_side_px"),
-                                                   m.get("simd_note", ""), bool(m.get("engine")))
+                                                   m.get("simd_note", ""), bool(m.get("engine")), bool(m.get("other_bits")))
                for m in data["methods"]}
     scenes = []
     for scene in data["scenes"]:

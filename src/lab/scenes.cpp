@@ -92,14 +92,17 @@ ClippingScene around_the_camera(int count, Size size) {
   return s;
 }
 
-CoverageScene scene_of(const Drawable& drawable, Size size) {
-  const Cull cull = std::holds_alternative<TriangleStream>(drawable) ? Cull::none : Cull::back;
-  return coverage_scene(drawable, {size.width, size.height, cull, false});
+CoverageScene scene_of(const Drawable& drawable, Size size, int subpixel_bits) {
+  return coverage_scene(drawable,
+                        {.width = size.width,
+                         .height = size.height,
+                         .subpixel_bits = subpixel_bits,
+                         .cull = std::holds_alternative<TriangleStream>(drawable) ? Cull::none : Cull::back});
 }
 
 class Catalogue {
  public:
-  explicit Catalogue(bool quick) : quick_(quick) {}
+  Catalogue(bool quick, int subpixel_bits) : quick_(quick), subpixel_bits_(subpixel_bits) {}
 
   std::vector<LabScene> built_in() {
     // First, because the speed charts use it: a scene on which both references agree.
@@ -107,10 +110,10 @@ class Catalogue {
       const bool small = c.size.width < 1000;
       const bool timed = c.name == "mesh_on_grid" || (c.name == "mesh" && !quick_);
       const double cost_s = small ? 0.1 : quick_ ? 1.0 : 6.0;
-      add(Family::coverage, c.name, c.summary, timed, small, cost_s, [&c] {
+      add(Family::coverage, c.name, c.summary, timed, small, cost_s, [&c, bits = subpixel_bits_] {
         auto floats = c.make();
-        auto rounded = snapped(floats);
-        return CoverageScene{c.size, std::move(floats), std::move(rounded)};
+        auto rounded = snapped(floats, bits);
+        return CoverageScene{c.size, std::move(floats), std::move(rounded), bits};
       });
     }
     const Size seen = quick_ ? kQuick : kNormalSize;
@@ -154,7 +157,7 @@ class Catalogue {
     const SceneRequest request{size.width, size.height, 0.0f, quick_ ? extent.quick_scale : extent.scale};
     const double cost_s = quick_ ? extent.quick_cost_s : extent.cost_s;
     add(Family::coverage, info.name, info.summary, extent.timed, false, cost_s,
-        [&info, request, size] { return scene_of(info.make(request), size); });
+        [&info, request, size, bits = subpixel_bits_] { return scene_of(info.make(request), size, bits); });
     if (info.stream) return;
     const Size seen = quick_ ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
@@ -189,19 +192,21 @@ class Catalogue {
   }
 
   bool quick_;
+  int subpixel_bits_;
   std::vector<LabScene> list_;
 };
 
 }  // namespace
 
-std::vector<LabScene> lab_scenes(bool quick) {
-  return Catalogue(quick).built_in();
+std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits) {
+  return Catalogue(quick, subpixel_bits).built_in();
 }
 
-std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load) {
-  std::vector<LabScene> scenes{{Family::coverage, name, "your file", true, false, 5.0, [load] {
+std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
+                                 int subpixel_bits) {
+  std::vector<LabScene> scenes{{Family::coverage, name, "your file", true, false, 5.0, [load, subpixel_bits] {
                                   const SizedDrawable own = load();
-                                  return AnyScene(scene_of(own.drawable, own.size));
+                                  return AnyScene(scene_of(own.drawable, own.size, subpixel_bits));
                                 }}};
   if (stream) return scenes;
   scenes.push_back({Family::visibility, name, "your file", true, false, 5.0, [load] {

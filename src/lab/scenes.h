@@ -27,8 +27,9 @@ struct LabScene {
   std::function<AnyScene()> make;
 };
 
-// Family by family. `quick`: smaller scenes, and fewer of them are timed.
-std::vector<LabScene> lab_scenes(bool quick);
+// Family by family. `quick`: smaller scenes, and fewer of them are timed. Backends get positions of so many
+// subpixel bits.
+std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits = 8);
 
 // A mesh or stream, and the size of its picture.
 struct SizedDrawable {
@@ -36,6 +37,7 @@ struct SizedDrawable {
   Size size;
 };
 // The user's own scene: one for coverage, and for a mesh one for visibility and one for projection.
-std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load);
+std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
+                                 int subpixel_bits = 8);
 
 }  // namespace edgewise::lab

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/accuracy/score.h"
@@ -90,8 +91,10 @@ struct AddScore {
     add_rate(score, s.wrong(), scene.covered);
   }
   void operator()(const lab::ProjectionScore& s) const {
-    Json& score = method["score"] = {
-        {"errors", s.wrong}, {"by_rounding", s.by_rounding}, {"by_projection", s.by_projection}};
+    Json& score = method["score"] = {{"errors", s.wrong},
+                                     {"by_rounding", s.by_rounding},
+                                     {"by_projection", s.by_projection},
+                                     {"folds", s.folds}};
     add_rate(score, s.wrong, scene.crossings);
   }
 };
@@ -148,8 +151,11 @@ Json cube_json(const CubeResult& cube) {
 }  // namespace
 
 Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
-  Json result{
-      {"quick", plan.quick}, {"ok", report.ok()}, {"methods", Json::array()}, {"scenes", Json::array()}};
+  Json result{{"quick", plan.quick},
+              {"subpixel_bits", plan.subpixel_bits},
+              {"ok", report.ok()},
+              {"methods", Json::array()},
+              {"scenes", Json::array()}};
   const ChosenMethods methods = methods_of(plan);
   for (const auto& [family, info] : methods.all()) {
     Json& method = result["methods"].emplace_back(Json{{"family", name_of(family)},
@@ -158,6 +164,9 @@ Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
                                                        {"source", info->source},
                                                        {"promise", info->promise},
                                                        {"exact", info->exact}});
+    if (family == Family::projection)
+      method["other_bits"] = std::ranges::any_of(lab::projections_with_other_bits(),
+                                                 [&](const auto& m) { return m.info.name == info->name; });
     if (family != Family::coverage) continue;
     const lab::CoverageMethod& coverage = methods.find_coverage(info->name);
     method["max_side_px"] = coverage.promise.max_side_px;

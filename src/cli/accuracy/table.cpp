@@ -228,13 +228,13 @@ std::string clipping_table(const FamilyTable& t) {
 std::string projection_table(const FamilyTable& t) {
   using S = lab::ProjectionScore;
   std::string text = t.title("wrong samples per 10^6 edge crossings", "crossings");
-  constexpr const char* kLine = "{:<18}{:>12}{:>14}{:>16}{:>{}}\n";
-  text +=
-      fmt::format(kLine, "method", "per 10^6", "by rounding", "by projection", kMostWrongOn, last_width(t));
+  constexpr const char* kLine = "{:<15}{:>10}{:>13}{:>15}{:>7}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "by rounding", "by projection", "folds", kMostWrongOn,
+                      last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto part = [&](auto count) { return rate(t.sum(i, count), t.trials()); };
     text += fmt::format(kLine, t.name(i), part(&S::wrong), part(&S::by_rounding), part(&S::by_projection),
-                        t.most_wrong_on(i), last_width(t));
+                        t.sum(i, &S::folds), t.most_wrong_on(i), last_width(t));
   }
   return text + t.without_dominant() +
          "by rounding: of exact positions, rounded exactly to as many bits; by projection:\n"

@@ -113,25 +113,6 @@ struct Pair {
   auto operator<=>(const Pair&) const = default;
 };
 
-// See Cracks::folds. Coverage before and after rounding.
-std::vector<Sample> folds_of(const Surface& surface, std::span<const Run> before,
-                             std::span<const Run> after) {
-  std::vector<Pair> moved;
-  for_each_difference(before, after, [&](const Run& run, bool missing) {
-    for (int x = run.x0; x < run.x1 && !missing; ++x) moved.push_back({run.y, x, run.triangle});
-  });
-  std::sort(moved.begin(), moved.end());
-  std::vector<Sample> folds;
-  for (const Run& run : after)
-    for (auto at = std::lower_bound(moved.begin(), moved.end(), Pair{run.y, run.x0, 0});
-         at != moved.end() && at->y == run.y && at->x < run.x1; ++at)
-      if (at->triangle != run.triangle && surface.side_by_side(at->triangle, run.triangle))
-        folds.push_back({at->y, at->x});
-  std::sort(folds.begin(), folds.end());
-  folds.erase(std::unique(folds.begin(), folds.end()), folds.end());
-  return folds;
-}
-
 // Compares what is drawn with a truth, at the edges where triangles meet. across(triangle, edge, visit) calls
 // visit(other) for each triangle on the other side of an edge until one returns true, and returns whether one
 // did.
@@ -198,6 +179,24 @@ class Seams {
 };
 
 }  // namespace
+
+std::vector<Sample> folds_of(const Surface& surface, std::span<const Run> before,
+                             std::span<const Run> after) {
+  std::vector<Pair> moved;
+  for_each_difference(before, after, [&](const Run& run, bool missing) {
+    for (int x = run.x0; x < run.x1 && !missing; ++x) moved.push_back({run.y, x, run.triangle});
+  });
+  std::sort(moved.begin(), moved.end());
+  std::vector<Sample> folds;
+  for (const Run& run : after)
+    for (auto at = std::lower_bound(moved.begin(), moved.end(), Pair{run.y, run.x0, 0});
+         at != moved.end() && at->y == run.y && at->x < run.x1; ++at)
+      if (at->triangle != run.triangle && surface.side_by_side(at->triangle, run.triangle))
+        folds.push_back({at->y, at->x});
+  std::sort(folds.begin(), folds.end());
+  folds.erase(std::unique(folds.begin(), folds.end()), folds.end());
+  return folds;
+}
 
 std::vector<FloatTriangle> rounded_to(std::span<const FloatTriangle> triangles, int subpixel_bits) {
   std::vector<FloatTriangle> list(triangles.begin(), triangles.end());

@@ -93,6 +93,9 @@ struct Cracks {
   std::uint64_t at_t_junctions() const { return t_gaps.size() + t_double_hits.size(); }
 };
 
+// Coverage before and after rounding, both sorted. See Cracks::folds.
+std::vector<Sample> folds_of(const Surface& surface, std::span<const Run> before, std::span<const Run> after);
+
 // Rounds half to even. Rounding a float to a coarser grid gives a float.
 std::vector<FloatTriangle> rounded_to(std::span<const FloatTriangle> triangles, int subpixel_bits);
 

@@ -103,6 +103,7 @@ Triangles ours(const SceneTruth& truth, std::optional<int> bits) {
   Frontend frontend;
   const auto screen = frontend.run(truth.scene(), {.width = truth.image().width,
                                                    .height = truth.image().height,
+                                                   .subpixel_bits = bits.value_or(8),
                                                    .cull = Cull::none,
                                                    .shade = false,
                                                    .payload = Payload::id,
@@ -154,28 +155,76 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
   return list;
 }
 
+namespace {
+
+constexpr std::string_view kOurs[] = {"ours_4",  "ours_5",  "ours_6",  "ours_7",  "ours_8",  "ours_9",
+                                      "ours_10", "ours_11", "ours_12", "ours_13", "ours_14", "ours_15"};
+constexpr std::string_view kExact[] = {"exact_4",  "exact_5",  "exact_6",  "exact_7",
+                                       "exact_8",  "exact_9",  "exact_10", "exact_11",
+                                       "exact_12", "exact_13", "exact_14", "exact_15"};
+static_assert(std::size(kOurs) == kMaxSubpixelBits - kMinSubpixelBits + 1 &&
+              std::size(kOurs) == std::size(kExact));
+
+constexpr std::string_view kFrontend = "frontend/transform.cpp",
+                           kInFloat =
+                               "positions off by less than 2^-19 (f + 2 side) D / w px before rounding",
+                           kInDouble =
+                               "positions off by less than 2^-17 px before rounding, for usual cameras";
+
+ProjectionMethod our(int bits) {
+  const bool fine = bits > 8;
+  return {{kOurs[bits - kMinSubpixelBits], fine ? "our front end, in double" : "our front end, in float",
+           kFrontend, fine ? kInDouble : kInFloat, false},
+          bits,
+          ours};
+}
+
+ProjectionMethod exact(int bits) {
+  return {{kExact[bits - kMinSubpixelBits], "exact projection, rounded exactly",
+           "the best that these subpixel bits allow", "exact positions, rounded half to even", true},
+          bits,
+          exactly};
+}
+
+constexpr int kShownBits[] = {8, 12, 15};
+
+}  // namespace
+
 std::span<const ProjectionMethod> projection_methods() {
-  constexpr std::string_view kOurs = "frontend/transform.cpp";
-  static const std::array kMethods{
-      ProjectionMethod{{"ours_8", "our front end with 8 subpixel bits", kOurs,
-                        "rounds positions that are off by at most 2^-19 (f + 2 side) D / w px", false},
-                       8,
-                       ours},
-      ProjectionMethod{
-          {"ours_float", "the same before rounding: floats relative to the camera", kOurs, "", false},
-          {},
-          ours},
-      ProjectionMethod{
-          {"matrix_float", "one 4×4 matrix of floats", "OpenGL, Direct3D, most engines", "", false},
-          {},
-          by_matrix<float>},
-      ProjectionMethod{
-          {"matrix_float_8", "the same, rounded to 8 subpixel bits", "", "", false}, 8, by_matrix<float>},
-      ProjectionMethod{{"matrix_double", "one 4×4 matrix of doubles", "", "", false}, {}, by_matrix<double>},
-      ProjectionMethod{{"exact_8", "", "", "", true}, 8, exactly},
-      ProjectionMethod{{"exact_12", "", "", "", true}, 12, exactly},
-      ProjectionMethod{{"exact_15", "", "", "", true}, 15, exactly},
-  };
+  static const std::vector<ProjectionMethod> kMethods = [] {
+    std::vector<ProjectionMethod> list;
+    for (const int bits : kShownBits) list.push_back(our(bits));
+    list.push_back(
+        {{"ours_float", "the floats that our front end rounds to at most 8 bits: relative to the camera",
+          kFrontend, kInFloat, false},
+         {},
+         ours});
+    list.push_back({{"matrix_float", "one 4×4 matrix of floats, positions as they are",
+                     "OpenGL, Direct3D, most engines", "none", false},
+                    {},
+                    by_matrix<float>});
+    list.push_back({{"matrix_float_8", "one 4×4 matrix of floats, positions rounded to 1/256 px",
+                     "Direct3D 11.3 functional specification, 3.4.1", "none", false},
+                    8,
+                    by_matrix<float>});
+    list.push_back({{"matrix_double", "one 4×4 matrix of doubles, positions as they are",
+                     "the usual remedy for float errors", "none", false},
+                    {},
+                    by_matrix<double>});
+    for (const int bits : kShownBits) list.push_back(exact(bits));
+    return list;
+  }();
+  return kMethods;
+}
+
+std::span<const ProjectionMethod> projections_with_other_bits() {
+  static const std::vector<ProjectionMethod> kMethods = [] {
+    std::vector<ProjectionMethod> list;
+    for (const auto make : {our, exact})
+      for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits)
+        if (std::ranges::find(kShownBits, bits) == std::end(kShownBits)) list.push_back(make(bits));
+    return list;
+  }();
   return kMethods;
 }
 

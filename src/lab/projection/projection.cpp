@@ -19,7 +19,8 @@ std::uint64_t differing(std::span<const Run> a, std::span<const Run> b) {
 }  // namespace
 
 ProjectionScore& ProjectionScore::operator+=(const ProjectionScore& other) {
-  wrong += other.wrong, by_rounding += other.by_rounding, by_projection += other.by_projection;
+  wrong += other.wrong, folds += other.folds;
+  by_rounding += other.by_rounding, by_projection += other.by_projection;
   return *this;
 }
 
@@ -43,6 +44,24 @@ std::vector<Run> ProjectionJudge::runs_of(std::span<const ProjectedTriangle> tri
   return DrawnRuns(std::move(runs), exact_.window).of_sources(sources).runs;
 }
 
+const Surface& ProjectionJudge::surface() const {
+  std::call_once(surface_once_, [&] {
+    for (std::uint32_t i = 0; i < truth_.size(); ++i) {
+      // Without three corners: a point that no other triangle has.
+      const auto apart = -1.0f - static_cast<float>(i);
+      FloatTriangle& t = outlines_.emplace_back(
+          FloatTriangle{{{apart, apart, apart}, {apart, apart, apart}, {apart, apart, apart}}, i});
+      const auto corners = truth_.outline(i);
+      for (std::size_t k = 0; k < 3 && corners.size() == 3; ++k) {
+        t.at.x_px[k] = static_cast<float>(corners[k].x), t.at.y_px[k] = static_cast<float>(corners[k].y);
+        t.at.z01[k] = static_cast<float>(corners[k].z);
+      }
+    }
+    surface_.emplace(outlines_);
+  });
+  return *surface_;
+}
+
 const ProjectionJudge::Rounded& ProjectionJudge::rounded(int bits) const {
   Rounded& found = rounded_[static_cast<std::size_t>(bits)];
   std::call_once(found.once, [&] {
@@ -54,8 +73,9 @@ const ProjectionJudge::Rounded& ProjectionJudge::rounded(int bits) const {
 
 ProjectionScore ProjectionJudge::score(const ProjectionMethod& method) const {
   const std::vector<Run> drawn = runs_of(method.project(truth_, method.snap_bits));
-  ProjectionScore score{differing(exact_.runs, drawn), 0, 0};
+  ProjectionScore score{.wrong = differing(exact_.runs, drawn)};
   score.by_projection = score.wrong;
+  score.folds = folds_of(surface(), exact_.runs, drawn).size();
   if (!method.snap_bits) return score;
   const Rounded& exact = rounded(*method.snap_bits);
   score.by_rounding = exact.wrong;

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "lab/coverage/score.h"
+#include "lab/coverage/cracks.h"
 #include "lab/projection/truth.h"
 
 namespace edgewise::lab {
@@ -40,7 +40,7 @@ struct ProjectedTriangle {
 struct ProjectionMethod {
   MethodInfo info;
   std::optional<int> snap_bits;  // the subpixel bits to which it rounds positions, half to even
-  // Of all triangles that draw something.
+  // Of all triangles that the truth shows.
   std::vector<ProjectedTriangle> (*project)(const SceneTruth& scene, std::optional<int> snap_bits);
 };
 
@@ -49,12 +49,15 @@ std::vector<ProjectedTriangle> exactly_projected(const SceneTruth& scene, int su
 
 // Ours first. The table is in methods.cpp.
 std::span<const ProjectionMethod> projection_methods();
+// Ours and the exact one with the bits that those lack, for a curve.
+std::span<const ProjectionMethod> projections_with_other_bits();
 
 // (triangle, pixel) pairs that a method draws and the truth lacks, or the other way round.
 struct ProjectionScore {
   std::uint64_t wrong = 0;  // against the exact projection
   // Of the exact projection rounded to the method's bits: against the exact one, and against the method's.
   std::uint64_t by_rounding = 0, by_projection = 0;
+  std::uint64_t folds = 0;  // see Cracks::folds; clipped triangles do not count
 
   ProjectionScore& operator+=(const ProjectionScore& other);
   bool operator==(const ProjectionScore&) const = default;
@@ -76,11 +79,15 @@ class ProjectionJudge {
     std::uint64_t wrong = 0;
   };
   std::vector<Run> runs_of(std::span<const ProjectedTriangle> triangles) const;
+  const Surface& surface() const;
   const Rounded& rounded(int bits) const;
 
   SceneTruth truth_;
   CoverageTruth exact_;
   std::uint64_t crossings_;
+  mutable std::once_flag surface_once_;
+  mutable std::vector<FloatTriangle> outlines_;  // by triangle, rounded to float
+  mutable std::optional<Surface> surface_;
   mutable std::array<Rounded, kMostSnapBits + 1> rounded_;
 };
 

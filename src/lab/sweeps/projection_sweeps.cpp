@@ -19,23 +19,24 @@ Measured measure_scene(Scene scene, bool quick) {
 
 std::vector<Sweep> projection_sweeps() {
   constexpr YAxis kWrongSamples{"wrong samples per 10^6 edge crossings", true, 1e6};
-  return {
-      {"far_from_origin",
-       Family::projection,
-       "a sphere whose vertices, and the camera, lie far from the mesh's own origin",
-       {"distance on each axis", "radii", true},
-       kWrongSamples,
-       10,
-       powers_of_two(0, 16),
-       [](double away, bool quick) { return measure_scene(sphere_far_from_origin(away), quick); }},
-      {"far_from_camera",
-       Family::projection,
-       "a sphere far from the camera, as large in the picture",
-       {"distance", "radii", true},
-       kWrongSamples,
-       10,
-       powers_of_two(2, 20),
-       [](double distance, bool quick) { return measure_scene(sphere_far_from_camera(distance), quick); }}};
+  return {{"far_from_origin",
+           Family::projection,
+           "a sphere whose vertices, and the camera, lie far from the mesh's own origin",
+           {"distance on each axis", "radii", true},
+           kWrongSamples,
+           10,
+           powers_of_two(0, 16),
+           [](double away, bool quick, int) { return measure_scene(sphere_far_from_origin(away), quick); }},
+          {"far_from_camera",
+           Family::projection,
+           "a sphere far from the camera, as large in the picture",
+           {"distance", "radii", true},
+           kWrongSamples,
+           10,
+           powers_of_two(2, 20),
+           [](double distance, bool quick, int) {
+             return measure_scene(sphere_far_from_camera(distance), quick);
+           }}};
 }
 
 }  // namespace edgewise::lab
