@@ -41,6 +41,15 @@ inline void check(const py::array& array, const char* name, std::initializer_lis
   if (!same) throw std::invalid_argument(std::string(name) + " must have the shape (" + wanted + ")");
 }
 
+// A copy. pybind11's own constructor lets numpy copy, which releases the GIL and takes it back, and so would
+// unwind the stack while Python ends (gil.h).
+template <typename T>
+Array<T> new_array(const std::vector<py::ssize_t>& shape, const T* values) {
+  Array<T> array(shape);
+  std::copy_n(values, array.size(), array.mutable_data());
+  return array;
+}
+
 // numpy stores rows, glm columns.
 inline glm::dmat4 matrix_at(const double* rows) {
   return glm::transpose(glm::make_mat4(rows));
@@ -50,10 +59,7 @@ inline glm::dmat4 matrix_of(const Matrix& rows, const char* name) {
   return matrix_at(rows.data());
 }
 inline Matrix rows_of(const glm::dmat4& matrix) {
-  Matrix rows({4, 4});
-  const glm::dmat4 transposed = glm::transpose(matrix);
-  std::copy_n(glm::value_ptr(transposed), 16, rows.mutable_data());
-  return rows;
+  return new_array({4, 4}, glm::value_ptr(glm::transpose(matrix)));
 }
 
 template <typename To, typename From>
@@ -66,16 +72,15 @@ std::vector<To> copied(const Array<From>& from) {
 // `height` rows.
 template <typename T>
 Array<T> as_array(const std::vector<T>& values, int width, int height) {
-  return Array<T>({height, width}, values.data());
+  return new_array({height, width}, values.data());
 }
 template <typename T>
 Array<T> as_array(const std::vector<T>& values) {
-  return Array<T>(static_cast<py::ssize_t>(values.size()), values.data());
+  return new_array({static_cast<py::ssize_t>(values.size())}, values.data());
 }
 template <typename T>
 Array<T> as_array(const std::vector<glm::vec<3, T>>& rows) {
-  return Array<T>({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}},
-                  reinterpret_cast<const T*>(rows.data()));
+  return new_array({static_cast<py::ssize_t>(rows.size()), 3}, reinterpret_cast<const T*>(rows.data()));
 }
 
 // convert(value) of each.

@@ -109,7 +109,7 @@ void define_images(py::module_& m) {
     const FloatMap map = with_file_only([&] { return read_pfm(path, open_input(path)); });
     std::vector<py::ssize_t> shape{map.height, map.width};
     if (map.channels != 1) shape.push_back(map.channels);
-    return Floats(shape, map.values.data());
+    return new_array(shape, map.values.data());
   });
   m.def("diff", diff);
 }

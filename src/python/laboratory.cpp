@@ -84,7 +84,7 @@ Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& pro
     found = lab::portable_pixels(lab::portable_triangles(seen, options), width, height, model, threads);
   });
   static_assert(sizeof(lab::Unstable) == 1);
-  return Array<std::uint8_t>({height, width}, reinterpret_cast<const std::uint8_t*>(found.reasons.data()));
+  return new_array({height, width}, reinterpret_cast<const std::uint8_t*>(found.reasons.data()));
 }
 
 }  // namespace

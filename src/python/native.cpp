@@ -52,7 +52,7 @@ auto pixels_per(Count count) {
         all.insert(all.end(), counts.begin(), counts.end());
       }
     });
-    return Words(frames.shape({static_cast<py::ssize_t>(kinds)}), all.data());
+    return new_array(frames.shape({static_cast<py::ssize_t>(kinds)}), all.data());
   };
 }
 
@@ -235,7 +235,7 @@ PYBIND11_MODULE(_native, m) {
       .def("light",
            [](Drawn& self) {
              const glm::vec3 light = self.use_scene([](const Scene& scene) { return scene.to_light; });
-             return Floats(3, glm::value_ptr(light));
+             return new_array({3}, glm::value_ptr(light));
            })
       .def("add_mesh", add_arrays<float>)
       .def("add_mesh", add_arrays<double>)
