@@ -9,6 +9,7 @@
 
 #include "edgewise/contract.h"
 #include "frontend/view.h"
+#include "lab/coverage/cracks.h"
 #include "lab/portable/portable.h"
 
 namespace edgewise::bench {
@@ -97,12 +98,10 @@ std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
 PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t> payloads,
                      int subpixel_bits) {
   PeerMesh mesh;
-  const auto rounded = [=](double px) {
-    return std::ldexp(std::nearbyint(std::ldexp(px, subpixel_bits)), -subpixel_bits);
-  };
   for (std::size_t i = 0; i < stream.size(); ++i)
     for (const glm::dvec3 vertex : stream.at(i).vertex) {
-      mesh.positions.emplace_back(rounded(vertex.x), rounded(vertex.y), vertex.z);
+      mesh.positions.emplace_back(lab::rounded_to(vertex.x, subpixel_bits),
+                                  lab::rounded_to(vertex.y, subpixel_bits), vertex.z);
       mesh.payloads.push_back(payloads[i]);
     }
   return mesh;
@@ -125,12 +124,19 @@ PeerScene peer_scene(const Workload& workload, PeerPayload payload, int subpixel
   return result;
 }
 
-std::vector<ScreenTriangle> triangles_by_id(const Workload& workload) {
-  FrontendOptions options = workload.frontend_options();
+namespace {
+
+std::vector<ScreenTriangle> triangles_by_id(const Workload& workload, FrontendOptions options) {
   options.payload = Payload::id;
   Frontend frontend;
   const auto triangles = frontend.run(workload.drawable(), options);
   return {triangles.begin(), triangles.end()};
+}
+
+}  // namespace
+
+std::vector<ScreenTriangle> triangles_by_id(const Workload& workload) {
+  return triangles_by_id(workload, workload.frontend_options());
 }
 
 namespace {
@@ -231,9 +237,7 @@ PortableJudgement judge_portable(const Workload& workload, std::span<const std::
                                  int subpixel_bits) {
   FrontendOptions options = workload.frontend_options();
   options.subpixel_bits = std::max(options.subpixel_bits, subpixel_bits);
-  options.payload = Payload::id;
-  Frontend frontend;
-  const Framebuffer ours = picture_of_ids(workload, frontend.run(workload.drawable(), options));
+  const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload, options));
   const auto mask = lab::portable_pixels(
       lab::portable_triangles(workload.drawable(), options), ours.width(), ours.height(),
       {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);

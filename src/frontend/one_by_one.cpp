@@ -160,15 +160,15 @@ struct MeshGeometry {
   std::uint32_t depth(const ClipVertex& v) const { return round_depth(above_near(v)); }
   double depth01(const ClipVertex& v) const { return above_near(v) / contract::kDepthRange; }
   Unsnapped unsnapped(int k) const {
-    const ClipVertex exact = clip_vertex(k);
     if (fine) {
+      const ClipVertex exact = clip_vertex(k);
       const double inverse_w = 1.0 / exact.w;
       return {
           exact.x * inverse_w, exact.y * inverse_w, depth01(exact), {exact.z, exact.w, weights_of_corner(k)}};
     }
     const glm::vec3 v = transform(task.to_screen, position(k));
     const float inverse_w = 1.0f / v.z;
-    const ClipVertex c = task.to_screen.has_z ? exact : as_clip_vertex(v);
+    const ClipVertex c = task.to_screen.has_z ? clip_vertex(k) : as_clip_vertex(v);
     return {double{v.x * inverse_w},
             double{v.y * inverse_w},
             depth01(c),

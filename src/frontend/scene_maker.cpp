@@ -30,7 +30,7 @@ void check(const Mesh& mesh) {
 void SceneMaker::set(const Scene& scene, const FrontendOptions& options, SimdTarget target) {
   scene_ = &scene, options_ = &options;
   number_triangles(scene, first_ids_);
-  view_.emplace(scene, options.width, options.height);
+  view_.emplace(scene, options.width, options.height, is_fine(options.subpixel_bits));
   for (const Instance& instance : scene.instances) check(scene.meshes[instance.mesh]), check(instance);
   to_light_ = glm::normalize(glm::dvec3(scene.to_light));
   transform_ = transform_kernel(target);
@@ -73,7 +73,7 @@ void SceneMaker::start_instance(Worker& w, std::size_t instance) {
   w.task.emplace(MeshTask{.options = *options_,
                           .mesh = mesh,
                           .view = view_->volume,
-                          .to_screen = {*view_, model, is_fine(options_->subpixel_bits)},
+                          .to_screen = {*view_, model},
                           .depth = view_->depth,
                           .first_id = options_->first_id + static_cast<std::uint32_t>(first),
                           .states = states_ != nullptr ? states_ + first : nullptr});

@@ -126,22 +126,23 @@ CameraMatrices matrices_of(const Camera& camera, double aspect) {
           perspective_projection(double{camera.fov_y}, aspect, double{camera.near_z}, double{camera.far_z})};
 }
 
-View::View(const Camera& camera, int width_px, int height_px)
+View::View(const Camera& camera, int width_px, int height_px, bool fine)
     : volume(view_volume(camera, width_px, height_px)),
       depth(volume.near_z, volume.far_z),
       pixels(pixels_of(camera, width_px, height_px)),
       origin(camera.position) {
+  if (!fine) return;
   glm::dmat4 rows(0.0), from_origin(1.0);
   for (int i = 0; i < 3; ++i) rows[i] = glm::dvec4(pixels[i].x, pixels[i].y, 0.0, pixels[i].z);
   from_origin[3] = glm::dvec4(-origin, 1.0);
   to_pixels = PairMatrix(rows) * PairMatrix(within_range(from_origin));
 }
 
-View::View(const Scene& scene, int width_px, int height_px)
-    : View(scene.matrices ? View(*scene.matrices, width_px, height_px)
-                          : View(scene.camera, width_px, height_px)) {}
+View::View(const Scene& scene, int width_px, int height_px, bool fine)
+    : View(scene.matrices ? View(*scene.matrices, width_px, height_px, fine)
+                          : View(scene.camera, width_px, height_px, fine)) {}
 
-View::View(const CameraMatrices& matrices, int width_px, int height_px)
+View::View(const CameraMatrices& matrices, int width_px, int height_px, bool fine)
     : volume{double(width_px), double(height_px), 0.0, 0.0, 1.0}, depth(0.0, 1.0) {
   constexpr double kLargest = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::min();
   if (!is_finite(matrices.view) || !is_finite(matrices.projection))
@@ -167,7 +168,7 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
   const glm::dmat4 to_image = viewport(width_px, height_px);
   const glm::dmat3 xyw_to_image(xyw(to_image[0]), xyw(to_image[1]), xyw(to_image[3]));
   pixels = xyw_to_image * glm::dmat3(xyw(to_clip[0]), xyw(to_clip[1]), xyw(to_clip[2]));
-  to_pixels = PairMatrix(to_image) * (PairMatrix(matrices.projection) * PairMatrix(matrices.view));
+  if (fine) to_pixels = PairMatrix(to_image) * (PairMatrix(matrices.projection) * PairMatrix(matrices.view));
   if (is_usual) {
     const glm::dmat4& p = matrices.projection;
     const double a = p[2].z / p[2].w, b = p[3].z;  // z / w = a + b / w, so a = far / (far - near)
@@ -186,7 +187,7 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
   if (glm::dvec3(inverse_w) == glm::dvec3(0.0)) axis = glm::dvec3(to_world[2]) * least_w;
 }
 
-ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model, bool fine) : has_z(view.has_z) {
+ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model) : has_z(view.has_z) {
   const glm::dmat3 axes(model);
   // Along the axis, to the point nearest to the instance's origin. NaN if there is no axis.
   const glm::dvec3 place = glm::dvec3(model[3]) - view.origin;
@@ -196,8 +197,8 @@ ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model, bool
   origin = model_point(axes, towards);
   // A vertex at such a distance is beyond usual far planes, and must not become infinite or NaN.
   constexpr double kLargest = 0x1p125, kLargestOffset = 0x1p200;
-  if (fine) {
-    PairMatrix m = view.to_pixels * PairMatrix(within_range(model));
+  if (view.to_pixels) {
+    PairMatrix m = *view.to_pixels * PairMatrix(within_range(model));
     m[3] = m * glm::tvec4<DoublePair>(glm::dvec4(origin, 1.0));
     for (int i = 0; i < 4; ++i) {
       const glm::dvec4 column(m[i]);
@@ -206,12 +207,14 @@ ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model, bool
   } else {
     for (int i = 0; i < 3; ++i) origin[i] = rounded_to_float(origin[i]);
     const glm::dvec3 offset = glm::clamp(axes * origin - towards, -kLargestOffset, kLargestOffset);
-    const glm::dvec3 z_of(view.z);
     for (int i = 0; i < 3; ++i) exact[i] = view.pixels * axes[i];
     exact[3] = view.pixels * offset + view.at_origin;
-    z = glm::dvec4(z_of * axes, glm::dot(z_of, offset + along) + view.z.w);
-    w = glm::dvec4(exact[0].z, exact[1].z, exact[2].z, exact[3].z);
-    z = glm::clamp(z, -kLargestOffset, kLargestOffset), w = glm::clamp(w, -kLargestOffset, kLargestOffset);
+    if (has_z) {
+      const glm::dvec3 z_of(view.z);
+      z = glm::dvec4(z_of * axes, glm::dot(z_of, offset + along) + view.z.w);
+      w = glm::dvec4(exact[0].z, exact[1].z, exact[2].z, exact[3].z);
+      z = glm::clamp(z, -kLargestOffset, kLargestOffset), w = glm::clamp(w, -kLargestOffset, kLargestOffset);
+    }
   }
   for (int i = 0; i < 4; ++i) rounded[i] = glm::clamp(exact[i], -kLargest, kLargest);
 }

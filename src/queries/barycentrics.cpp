@@ -99,7 +99,7 @@ class Triangles {
       count_ = checked_count(stream_->size(), options.first_id);
       return;
     }
-    view_.emplace(*scene_, options.width, options.height);
+    view_.emplace(*scene_, options.width, options.height, is_fine(options.subpixel_bits));
     w_is_distance_ = view_->axis == glm::dvec3(0.0);
     first_ids_ = first_ids(*scene_);
     count_ = checked_count(first_ids_.back(), options.first_id);
@@ -149,13 +149,12 @@ class Triangles {
       const Scene& scene = *all_.scene_;
       const Instance& instance = scene.instances[index];
       const Mesh& mesh = scene.meshes[instance.mesh];
-      task_.emplace(MeshTask{
-          .options = all_.options_,
-          .mesh = mesh,
-          .view = all_.view_->volume,
-          .to_screen = {*all_.view_, model_matrix(mesh, instance), is_fine(all_.options_.subpixel_bits)},
-          .depth = all_.view_->depth,
-          .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
+      task_.emplace(MeshTask{.options = all_.options_,
+                             .mesh = mesh,
+                             .view = all_.view_->volume,
+                             .to_screen = {*all_.view_, model_matrix(mesh, instance)},
+                             .depth = all_.view_->depth,
+                             .first_id = static_cast<std::uint32_t>(all_.first_ids_[index])});
     }
 
     const Triangles& all_;

@@ -9,8 +9,8 @@ namespace edgewise {
 
 // Whether a cleared frame cannot stay in the last-level cache beside its reader's data. Streaming
 // (non-temporal) stores then save reading what it held. Without them, `cube`, `sphere` and `terrain` of 7680
-// x 4320 px take 1.3 to 1.65 times as long, on one thread and on two (265 MB, beside 300 MB of last-level
-// cache).
+// x 4320 px take 1.3 to 1.65 times as long, on one thread and on two (265 MB; the last-level
+// cache had 300 MB).
 constexpr bool is_large(std::size_t frame_bytes, std::size_t llc) {
   return frame_bytes > llc / 2;
 }

@@ -46,7 +46,7 @@ struct Case {
     return v;
   }
   ScreenTransform to_screen() const {
-    return {View(scene, kWidth, kHeight), model_matrix(scene.meshes[0], scene.instances[0]), true};
+    return {View(scene, kWidth, kHeight, /*fine=*/true), model_matrix(scene.meshes[0], scene.instances[0])};
   }
 };
 

@@ -197,12 +197,13 @@ class Seams {
 
 }  // namespace
 
+double rounded_to(double px, int subpixel_bits) {
+  return std::ldexp(std::nearbyint(std::ldexp(px, subpixel_bits)), -subpixel_bits);
+}
+
 std::vector<FloatTriangle> rounded_to(std::span<const FloatTriangle> triangles, int subpixel_bits) {
   std::vector<FloatTriangle> list(triangles.begin(), triangles.end());
-  const auto round = [&](float& px) {
-    px =
-        static_cast<float>(std::ldexp(std::nearbyint(std::ldexp(double{px}, subpixel_bits)), -subpixel_bits));
-  };
+  const auto round = [&](float& px) { px = static_cast<float>(rounded_to(double{px}, subpixel_bits)); };
   for (FloatTriangle& t : list)
     for (int i = 0; i < 3; ++i) round(t.at.x_px[i]), round(t.at.y_px[i]);
   return list;

@@ -93,6 +93,7 @@ struct Cracks {
 };
 
 // Rounds half to even. Rounding a float to a coarser grid gives a float.
+double rounded_to(double px, int subpixel_bits);
 std::vector<FloatTriangle> rounded_to(std::span<const FloatTriangle> triangles, int subpixel_bits);
 
 // Holds a picture's surface, and the exact coverage of its positions rounded to any number of subpixel bits.

@@ -80,19 +80,21 @@ struct FrameEdges : FrameBatch {
 
   HWY_INLINE void draw(const FrameTask& task, int k, const ScreenTriangle& triangle) const {
     count(Part::frame_edges);
+    if constexpr (std::is_same_v<G, Fine>)
+      if (!is_short(k)) return draw_pieces<LongEdge>(task, k, triangle.payload);
+    draw_pieces<ShortEdge>(task, k, triangle.payload);
+  }
+
+ private:
+  template <class EdgeOfPixels>
+  HWY_INLINE void draw_pieces(const FrameTask& task, int k, std::uint32_t payload) const {
     const PixelBox in_area = box(k);
     const BoxDepth depth(plane(k), in_area);
     for (int x = in_area.x0, end; x < in_area.x1; x = end) {
       end = std::min(in_area.x1, (x & -kDepthCell) + kDepthCell);
-      const PixelBox piece{x, in_area.y0, end, in_area.y1};
-      if (std::is_same_v<G, Coarse> || is_short(k))
-        draw_piece<ShortEdge>(task, k, piece, depth, triangle.payload);
-      else
-        draw_piece<LongEdge>(task, k, piece, depth, triangle.payload);
+      draw_piece<EdgeOfPixels>(task, k, {x, in_area.y0, end, in_area.y1}, depth, payload);
     }
   }
-
- private:
   bool is_short(int k) const {
     return std::all_of(edge, edge + 3,
                        [&](const auto& e) { return std::max(std::abs(e.a[k]), std::abs(e.b[k])) <= kShort; });
