@@ -1,4 +1,4 @@
-// The size of the last-level cache (LLC) as Linux reports it, or 8 MB where it reports none. Other processes
+// The size of the last-level cache (LLC) as Linux reports it, or 48 MB where it reports none. Other processes
 // may share the cache, and a virtual machine may report more than its share.
 #pragma once
 

@@ -9,10 +9,10 @@ namespace edgewise {
 
 // Whether a cleared frame cannot stay in the last-level cache beside its reader's data. Streaming
 // (non-temporal) stores then save reading what it held. Without them, `cube`, `sphere` and `terrain` of 7680
-// x 4320 px take 1.3 to 1.65 times as long, on one thread and on two (265 MB; the last-level
-// cache had 300 MB).
+// x 4320 px take 1.3 to 1.65 times as long, on one thread and on two (265 MB; the last-level cache had 300
+// MB). With them, `cube` of 1920 x 1080 px takes 1.6 times as long (17 MB; 32 MB).
 constexpr bool is_large(std::size_t frame_bytes, std::size_t llc) {
-  return frame_bytes > llc / 2;
+  return frame_bytes > llc / 3 * 2;
 }
 
 // TileStore::automatic for tiles in buffers. On one thread, streaming stores overlap with drawing the next

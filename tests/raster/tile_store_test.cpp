@@ -41,8 +41,8 @@ TEST(TileStore, IsTheCallersChoiceOrStreamingIfTheFrameIsClearedOnOneThread) {
 
 TEST(TileStore, AutomaticallyStreamsLargeFrames) {
   for (const int threads : {1, 2}) {
-    EXPECT_TRUE(tiles_are_streamed(is_large(101, 200), threads));
-    EXPECT_EQ(tiles_are_streamed(is_large(100, 200), threads), threads == 1);
+    EXPECT_TRUE(tiles_are_streamed(is_large(201, 300), threads));
+    EXPECT_EQ(tiles_are_streamed(is_large(200, 300), threads), threads == 1);
   }
 }
 
