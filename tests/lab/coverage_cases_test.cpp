@@ -23,17 +23,21 @@ TEST(CoverageCases, TheDrtkQuadShowsTheTieRules) {
   EXPECT_EQ(cracks_of("float_le", quad).gaps.size(), 0u);
   EXPECT_EQ(cracks_of("float_lt", quad).gaps.size(), 6u);
   EXPECT_EQ(cracks_of("float_lt", quad).double_hits.size(), 0u);
-  EXPECT_EQ(against_floats("float_top_left", quad).errors(), 0u);
+  for (const auto method : {"float_top_left", "float_equation", "float_equation_fma"})
+    EXPECT_EQ(against_floats(method, quad).errors(), 0u) << method;
 }
 
 TEST(CoverageCases, FloatsOpenGapsInAFan) {
   const Picture& fan = picture_of("fan");
-  for (const auto method : {"float_top_left", "float_snapped", "float_incremental"}) {
+  for (const auto method : {"float_top_left", "float_equation_fma", "float_incremental"}) {
     EXPECT_GT(cracks_of(method, fan).gaps.size(), 0u) << method;
     EXPECT_GT(cracks_of(method, fan).double_hits.size(), 0u) << method;
   }
   EXPECT_GT(against_floats("float_incremental", fan).errors(),
             10 * against_floats("float_top_left", fan).errors());
+  // Its neighbours compute exactly opposite values, unless they are fused.
+  EXPECT_GT(against_floats("float_equation", fan).errors(), 0u);
+  EXPECT_EQ(cracks_of("float_equation", fan).at_shared_edges(), 0u);
 }
 
 TEST(CoverageCases, FinerSnappingMakesFewerErrors) {

@@ -165,11 +165,11 @@ TEST_P(EveryCoverageMethod, DrawsTheSameFarFromTheOriginIfNothingIsRounded) {
   // No edge of the square touches a sample. Every coordinate and product is exact in every method.
   const auto square = [](float x, float y) {
     std::vector<FloatTriangle> list(
-        2, {{{x + 2, x + 10, x + 10}, {y + 3, y + 3, y + 11}, {0.5f, 0.5f, 0.5f}}, 1});
-    list[1].at.x_px[1] = x + 2, list[1].at.y_px[1] = y + 11;
+        2, {{{x + 8, x + 16, x + 16}, {y + 8, y + 8, y + 16}, {0.5f, 0.5f, 0.5f}}, 1});
+    list[1].at.x_px[1] = x + 8, list[1].at.y_px[1] = y + 16;
     return list;
   };
-  const Picture near(square(0, 0), {16, 16}), far(square(30000, 20000), {16, 16, 30000, 20000});
+  const Picture near(square(0, 0), {16, 16}), far(square(28672, 20480), {16, 16, 28672, 20480});
   const CoverageScore score = score_coverage(near.by_grid, drawn_by(method_, near), near.floats);
   EXPECT_EQ(score_coverage(far.by_grid, drawn_by(method_, far), far.floats), score);
   EXPECT_EQ(far.by_grid.covered, 64u);

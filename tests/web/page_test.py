@@ -225,7 +225,7 @@ class Page:
         self.assertEqual(self.chosen(), ["float_lt", "none", "neither draws"])
         for choice, of, expected in (("both draw", "ties", ["float_le", "none", "both draw"]),
                                      ("top-left", "ties", ["float_top_left", "none", "top-left"]),
-                                     ("8", "bits", ["float_snapped", "8", "top-left"]),
+                                     ("8", "bits", ["scanline", "8", "top-left"]),
                                      ("16", "bits", ["fixed_16", "16", "top-left"]),
                                      ("0", "bits", ["whole_pixel", "0", "top-left"]),
                                      ("neither draws", "ties", ["float_lt", "none", "neither draws"])):

@@ -3,10 +3,11 @@
 //
 // A row's accepted samples are one interval despite rounding, since rounding is monotone. As s.x grows, the
 // rounded s.x - x does not fall; its rounded product with a is monotone, in the direction given by the sign
-// of a; and the rounded sum with the row's constant stays monotone. So each computed edge function is
-// monotone along a row, and exceeds its threshold on one side of a crossing only.
+// of a; and the rounded sum with the row's constant stays monotone, also if fused. So each computed edge
+// function is monotone along a row, and exceeds its threshold on one side of a crossing only.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "lab/coverage/plot.h"
@@ -14,7 +15,13 @@
 
 namespace edgewise::lab {
 
-template <typename Real>
+// a b + c, in one rounding if fused.
+template <bool kFused, typename Real>
+Real multiply_add(Real a, Real b, Real c) {
+  return kFused ? std::fma(a, b, c) : a * b + c;
+}
+
+template <typename Real, bool kFused = false>
 struct RealEdge {
   Real a, b, x, y;  // E(s) = a (s.x - x) + b (s.y - y), positive inside
   Real threshold;   // inside: E > threshold
@@ -23,7 +30,9 @@ struct RealEdge {
 
   struct Row {
     Real a, x, down, threshold;
-    bool accepts(int px) const { return a * (static_cast<Real>(px) + Real{0.5f} - x) + down > threshold; }
+    bool accepts(int px) const {
+      return multiply_add<kFused>(a, static_cast<Real>(px) + Real{0.5f} - x, down) > threshold;
+    }
   };
   Row row(int py) const { return {a, x, b * (static_cast<Real>(py) + Real{0.5f} - y), threshold}; }
   bool faces_right() const { return a >= 0; }
@@ -63,9 +72,9 @@ void with_edges(const UnsnappedTriangle& t, Window window, Body&& body) {
 }
 
 // "&" rather than "&&": one branch to mispredict, not three.
-template <typename Real, class Plot>
-void test_every_pixel(const RealEdge<Real> (&edges)[3], const PixelRows& box, Plot& plot) {
-  const RealEdge<Real> e0 = edges[0], e1 = edges[1], e2 = edges[2];
+template <typename Real, bool kFused, class Plot>
+void test_every_pixel(const RealEdge<Real, kFused> (&edges)[3], const PixelRows& box, Plot& plot) {
+  const RealEdge<Real, kFused> e0 = edges[0], e1 = edges[1], e2 = edges[2];
   for (int y = box.y0; y < box.y1; ++y) {
     const auto row0 = e0.row(y), row1 = e1.row(y), row2 = e2.row(y);
     for (int x = box.x0; x < box.x1; ++x)
@@ -76,9 +85,9 @@ void test_every_pixel(const RealEdge<Real> (&edges)[3], const PixelRows& box, Pl
 // Testing every pixel is faster for boxes up to this width.
 inline constexpr int kNarrowForReals_px = 6;
 
-// edges-inl.h has the overload for plots in lanes.
-template <typename Real, class Plot>
-void fill(const RealEdge<Real> (&edges)[3], const PixelRows& box, Plot& plot) {
+// edges-inl.h has the overload for plots in lanes, for edges that are not fused.
+template <typename Real, bool kFused, class Plot>
+void fill(const RealEdge<Real, kFused> (&edges)[3], const PixelRows& box, Plot& plot) {
   if (box.x1 - box.x0 <= kNarrowForReals_px)
     test_every_pixel(edges, box, plot);
   else
@@ -120,19 +129,24 @@ using FloatLt = RealEdges<float, RejectEdges>;
 using FloatTopLeft = RealEdges<float, TopLeft>;
 using DoubleTopLeft = RealEdges<double, TopLeft>;
 
-// Vertices snapped to 1/256 px.
-struct FloatSnapped {
+// Edge equations: E(s) = (a s.x + b s.y) + c, c = x y' - x' y for an edge from (x, y) to (x', y').
+template <bool kFused>
+struct EdgeEquations {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    const auto snap = [](float px) {
-      return static_cast<float>(round_half_even(double{px} * 256.0)) / 256.0f;
-    };
-    UnsnappedTriangle on_grid = t;
-    for (int i = 0; i < 3; ++i) {
-      on_grid.x_px[i] = snap(t.x_px[i]);
-      on_grid.y_px[i] = snap(t.y_px[i]);
-    }
-    FloatTopLeft::cover(on_grid, window, plot);
+    with_edges<float, TopLeft>(t, window, [&](const RealEdge<float>(&edges)[3], const PixelRows& box) {
+      RealEdge<float, kFused> equations[3];
+      for (int i = 0; i < 3; ++i) {
+        const auto &edge = edges[i], &next = edges[i == 2 ? 0 : i + 1];
+        const float c = multiply_add<kFused>(edge.x, next.y, -(next.x * edge.y));
+        // A rounded sum v + c has its exact sign, so it is > 0 if v > -c, and >= 0 if v exceeds the largest
+        // float below -c.
+        const float threshold = edge.threshold < 0 ? std::nextafter(-c, -INFINITY) : -c;
+        equations[i] = {edge.a, edge.b, 0, 0, threshold};
+      }
+      plot.begin();
+      fill(equations, box, plot);
+    });
   }
 };
 
@@ -140,6 +154,10 @@ struct FloatSnapped {
 // length times the distance, which is up to 4096 sqrt(2) px. That is 0.0014 px off the edge's line, and twice
 // that if the winding's sign is wrong.
 inline constexpr double kFloatReachPx = 0.0028;
+// c's products, up to 2^24, err by half a unit each; all else errs by less than 0.003 px of the edge's
+// length. An edge of 1 px or more is wrong within 1.003 px of its line. If only shorter edges are wrong, the
+// sample, which lies in the bounding box, is less than sqrt(2) px from a point of each.
+inline constexpr double kEquationReachPx = 1.5;
 
 // Float edge functions stepped by additions from the corner of the bounding box, as integers are stepped.
 // Every step rounds, and the errors accumulate along rows and columns.

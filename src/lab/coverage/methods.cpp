@@ -72,12 +72,17 @@ std::vector<CoverageMethod> coverage_table() {
            "Scratchapixel, \"Rasterization: a Practical Implementation\"",
            "wrong only within 0.0028 px of an edge", false},
           {.reach_px = kFloatReachPx}),
-      // Differences of snapped positions are exact. A product that needs more than 24 bits is rounded: two
-      // different products may become equal, and the tie rule then decides a false tie.
-      method<FloatSnapped>(
-          {"float_snapped", "float edge functions with the top-left rule, vertices snapped to 1/256 px",
-           "Scratchapixel's, after Direct3D's snapping", "wrong only within 0.0056 px of an edge", false},
-          {.reach_px = 0.00277 + kFloatReachPx, .snap_bits = 8}),
+      // C = x y' - x' y. Its products grow with the distance from the image's corner, and their rounding
+      // errors with them.
+      method<EdgeEquations<false>>(
+          {"float_equation", "float edge equations A x + B y + C with the top-left rule",
+           "Olano and Greer 1997, with w = 1", "wrong only within 1.5 px of an edge", false},
+          {.reach_px = kEquationReachPx}),
+      // Less is rounded, but of C's products only one, so neighbours no longer compute opposite values.
+      method<EdgeEquations<true>>(
+          {"float_equation_fma", "float_equation with fused multiply-adds, as compilers make them",
+           "-ffp-contract=fast, GCC's default", "wrong only within 1.5 px of an edge", false},
+          {.reach_px = kEquationReachPx}),
       // A step errs by 2^-24 of the value, which is the edge's length times the distance from its line. Over
       // 4096 rows and 4096 columns to a pixel on the line, these distances sum to at most
       // 4096^2 sqrt(1 / 4 + 9 / 4) px.
