@@ -226,7 +226,7 @@ def write_speed_sentence(bench):
 # The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal.
 BASE = "exact"
 WITH_MASKS = "with-masks"  # the backend's own row
-RUNS = {WITH_MASKS: "`tiled` itself", "int64": "64-bit integers, for 12 subpixel bits", "double": "doubles", "float": "floats",
+RUNS = {WITH_MASKS: "`tiled` itself", "int64": "64-bit integers", "double": "doubles", "float": "floats",
         "float_rebased": "floats, relative to the tile", "int32": "32-bit integers that wrap"}
 
 

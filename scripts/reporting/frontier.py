@@ -117,16 +117,10 @@ def wrong_of(accuracy, method):
     return pooled(found, 1e6) if found else None
 
 
-# The tile kernel's 64-bit edges count in 1/4096 px, but its vertices in 1/256 px. Its point has the wrong pixels of exact 12 bits.
-TWELVE_BITS = {"engine_int64": "fixed_12"}
-
-
 def points_of(found, accuracy, form):
     """{method: (wrong pixels per 10⁶ crossings, SpeedUp, whether no crack was seen)}"""
-    of = {method.name: method for method in found}
-    drawn = {method: of.get(TWELVE_BITS.get(method.name, method.name)) for method in found}
-    return {method: (wrong_of(accuracy, drawn[method]).rate, forms[form], cracks.rate == 0)
-            for method, (forms, cracks) in found.items() if form in forms and drawn[method]}
+    return {method: (wrong_of(accuracy, method).rate, forms[form], cracks.rate == 0)
+            for method, (forms, cracks) in found.items() if form in forms}
 
 
 def frontier_table(accuracy):

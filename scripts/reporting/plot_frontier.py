@@ -1,13 +1,13 @@
 """The main chart: wrong pixels against speed of each coverage method, in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
-from frontier import LEAST_CROSSINGS, PRICED, TWELVE_BITS, frontier_figures, points_of, timed_scenes, wrong_of
+from frontier import LEAST_CROSSINGS, PRICED, frontier_figures, points_of, timed_scenes, wrong_of
 from plot_labels import Label, label_points
 from plot_style import FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
 from tables import kernels, number, short
 
 # Methods that differ in the number of subpixel bits alone, joined to a curve.
 CURVES = {"64-bit fixed point": {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"},
-          "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}, "tiled": {8: "engine_exact", 12: "engine_int64"}}
+          "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}}
 BITS = {name: bits for bits, name in next(iter(CURVES.values())).items()}  # the same along every curve
 LABELLED = ("float_lt", "dda_16_16", "llvmpipe", *PRICED)
 MOST_LABELS = 8
@@ -15,10 +15,10 @@ FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 1.5
 
 
 def best_of(points):
-    """The methods that no other beats in both errors and speed, those with the fewest errors first; a point of two runs is none."""
+    """The methods that no other beats in both errors and speed, those with the fewest errors first."""
     front = []
     for method, (wrong, up, _) in sorted(points.items(), key=lambda item: (item[1][0], -item[1][1].middle)):
-        if method.name not in TWELVE_BITS and (not front or up.middle > points[front[-1]][1].middle):
+        if not front or up.middle > points[front[-1]][1].middle:
             front.append(method)
     return front
 
@@ -35,9 +35,9 @@ def frontier_title(points, code):
 
 def labels_of(points, x_of):
     """At most MOST_LABELS: ours and the front's first, then others that README names. Curves are labelled at their 8 bits."""
-    curve_of = {**dict.fromkeys(TWELVE_BITS, "tiled, 12 bits"), **{curve[8]: name for name, curve in CURVES.items() if name != "tiled"}}
+    curve_of = {curve[8]: name for name, curve in CURVES.items()}
     front = [m for m in best_of(points) if not m.engine]
-    others = sorted((m for m in points if m.name in (*curve_of, *LABELLED)), key=lambda m: (not m.peer, m.name not in TWELVE_BITS, m.name not in curve_of))
+    others = sorted((m for m in points if m.name in (*curve_of, *LABELLED)), key=lambda m: (not m.peer, m.name not in curve_of))
     order = [*(m for m in points if m.ours), *front, *others]
     chosen = list(dict.fromkeys(order))[:MOST_LABELS]
     return [Label(x_of(points[m][0]), points[m][1].middle, curve_of.get(m.name, m.name), bold=m.ours) for m in chosen]
@@ -92,10 +92,7 @@ def frontier(accuracy, bench, folder, caption):
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / counts[-1])
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
     peers += ["Peers draw whole frames, from vertices."] if peers else []
-    shown = {method.name for method in panels["simd"]}
-    twelve = "".join(f"Tiled, 12 bits, not on the front: the wrong pixels of {pixels} at the speed of {speed}, whose edges count in 1/4096 px. "
-                     for speed, pixels in TWELVE_BITS.items() if speed in shown)
-    notes = (f"{twelve}{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
+    notes = (f"{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
              f"Left out: from cracks, scenes with fewer than {short(LEAST_CROSSINGS)} crossings of shared edges; from wrong pixels, scenes with under 1 % of the largest scene's crossings; for 32-bit methods, scenes beyond their range.\n{caption}")
     above, below = 1.2 + head_in(subtitle), foot_in(notes)
     figure, axes_of = plt.subplots(1, 2, sharey=True, figsize=(WIDTH_IN, above + below + 4.4))

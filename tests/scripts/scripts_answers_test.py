@@ -15,7 +15,7 @@ from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_tables, scene_table, speed_table, tails_table, tile_stores_table  # noqa: E402
 from factors import gains, superlinear  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
-from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
+from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
 from instructions import instructions_table, read_counts  # noqa: E402
 from program import BadInput  # noqa: E402
 from python_tables import python_brief, python_tables, read_python  # noqa: E402
@@ -71,7 +71,7 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(header, ["numbers", "`large`"])
         self.assertEqual(lines, [["exact, the base", "10.0 ms"],
                                  ["`tiled` itself", "**1.11×** (1.09 to 1.13)"],
-                                 ["64-bit integers, for 12 subpixel bits", "1.00× (0.98 to 1.01)"],
+                                 ["64-bit integers", "1.00× (0.98 to 1.01)"],
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
 
     def test_tile_stores_are_compared_back_to_back_and_after_pauses(self):
@@ -266,12 +266,11 @@ class FrontierTest(unittest.TestCase):
         self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
         self.assertEqual(simd_gain(found, "tiled", "x"), "1.3× (0.50× in b to 4.0× in a; 1/1/1)")
 
-    def test_a_point_of_twelve_bits_joins_the_speed_of_one_method_and_the_pixels_of_another(self):
-        (timed, drawn), = TWELVE_BITS.items()
-        found = self.accuracy(a=(self.timed(timed, 1.0), replace(self.timed(drawn, 2.0), seen=(5, 0))))
+    def test_a_point_of_the_chart_has_a_methods_wrong_pixels_and_its_speed(self):
+        found = self.accuracy(a=(self.timed("x", 1.0), replace(self.timed("y", 2.0), seen=(5, 0))))
         self.assertEqual(wrong_of(found, found.methods["coverage"][1]).rate, 5.0)  # pixels: its rate of samples is 0
         points = {method.name: (wrong, up.middle) for method, (wrong, up, _) in points_of(frontier_figures(found)[0], found, "simd").items()}
-        self.assertEqual(points, {timed: (5.0, 4.0), drawn: (5.0, 2.0)})
+        self.assertEqual(points, {"x": (0.0, 4.0), "y": (5.0, 2.0)})
 
     def test_the_price_list_compares_with_the_exact_edges(self):
         loose, finer = (name for name in PRICED if name != EXACT)

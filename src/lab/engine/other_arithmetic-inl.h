@@ -5,9 +5,8 @@
 // using 2D homogeneous coordinates", 1997), or the tile's corner. Orientation, boxes and depths are the
 // contract's.
 //
-// int64 and double hold every value exactly: by rule 3, sums of products stay below 2^50. int64 counts in
-// 1/4096 px, so that it costs what 12 subpixel bits would; then sums stay below 2^58. int32 wraps. In float,
-// a, b and coordinates are exact; products and sums are rounded.
+// int64 and double hold every value exactly: by rule 3, sums of products stay below 2^50. int32 wraps. In
+// float, a, b and coordinates are exact; products and sums are rounded.
 //
 // No E is -0, so the sign bit of a float tells whether it is negative. A sum is -0 only if both terms are.
 // a s.x and b s.y are not both -0, since no sample has a coordinate 0 and a or b is not 0.
@@ -34,10 +33,6 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Bits below those of a sub-unit.
-template <typename T>
-constexpr int kFinerBits = std::is_same_v<T, std::int64_t> ? 12 - Coarse::kSubBits : 0;
 
 // a b, for 64-bit integers only if a and b fit 32 bits: few targets multiply more at once.
 template <class DF>
@@ -97,7 +92,7 @@ struct WideNumbers {
     return each([&](int i) { return hn::Sub(a.half[i], b.half[i]); });
   }
   static HWY_INLINE Vector times(V pixels, Value step) {
-    if constexpr (std::is_integral_v<T>) pixels = hn::ShiftLeft<Coarse::kSubBits + kFinerBits<T>>(pixels);
+    if constexpr (std::is_integral_v<T>) pixels = hn::ShiftLeft<Coarse::kSubBits>(pixels);
     return each([&](int i) { return product_of(Half{}, widened(pixels, i), hn::Set(Half{}, step)); });
   }
   static HWY_INLINE Vector four_times(const Vector& v) {
@@ -143,8 +138,7 @@ struct OtherNumbers : Numbers {
 
   static HWY_INLINE bool exceeds(Value range, std::int32_t twice_area_px2) {
     // The area was rounded down.
-    return static_cast<double>(range) >=
-           (twice_area_px2 + 1.0) * (1 << 2 * (Coarse::kSubBits + kFinerBits<Value>));
+    return static_cast<double>(range) >= (twice_area_px2 + 1.0) * (1 << 2 * Coarse::kSubBits);
   }
 
   // As in ContractNumbers.
@@ -181,15 +175,9 @@ struct OtherNumbers : Numbers {
     else
       return hn::PromoteTo(Tag{}, packed(v));
   }
-  static HWY_INLINE Vec finer(V32 v) {
-    if constexpr (kFinerBits<Value> == 0)
-      return number(v);
-    else
-      return hn::ShiftLeft<kFinerBits<Value>>(number(v));
-  }
   static HWY_INLINE Vec in_px(Vec v) {
     if constexpr (std::is_integral_v<Value>)
-      return hn::ShiftLeft<Coarse::kSubBits + kFinerBits<Value>>(v);
+      return hn::ShiftLeft<Coarse::kSubBits>(v);
     else
       return hn::Mul(v, hn::Set(Tag{}, Value{Coarse::kSub}));
   }
@@ -216,15 +204,15 @@ struct OtherNumbers : Numbers {
 
   static HWY_INLINE std::uint32_t set_up_edge(const EdgeInput& in, EdgeBatch<Value>& out, int k) {
     const Tag d;
-    const Vec zero = hn::Zero(d), a = finer(in.a), b = finer(in.b);
+    const Vec zero = hn::Zero(d), a = number(in.a), b = number(in.b);
     const Vec last_x = number(in.last_x), last_y = number(in.last_y);
     const Vec up_x = hn::Max(a, zero), up_y = hn::Max(b, zero);
     const Vec down_x = hn::Min(a, zero), down_y = hn::Min(b, zero);
     const auto over_block = [](Vec v) { return in_px(hn::Add(v, hn::Add(v, v))); };
     const Vec rise = over_block(hn::Add(up_x, up_y)), fall = over_block(hn::Add(down_x, down_y));
     const Vec range = hn::Sub(rise, fall);
-    const Vec unbiased = hn::Sub(weighted(a, b, finer(in.sample_x), finer(in.sample_y)),
-                                 weighted(a, b, finer(in.x), finer(in.y)));
+    const Vec unbiased = hn::Sub(weighted(a, b, number(in.sample_x), number(in.sample_y)),
+                                 weighted(a, b, number(in.x), number(in.y)));
     const Vec first = hn::Sub(unbiased, hn::IfThenZeroElse(is_top_left(a, b), bias_of(unbiased, range)));
     const Vec largest_in_box = hn::Add(first, in_px(weighted(up_x, up_y, last_x, last_y)));
     const Vec smallest_in_box = hn::Add(first, in_px(weighted(down_x, down_y, last_x, last_y)));
