@@ -18,7 +18,7 @@ def groups_of(sweep, methods):
 
 
 # Lengths of dashes and gaps, in widths of the line; given out within a kind of method.
-DASHES = ((), (5, 1.5), (1.5, 1.2), (5, 1.5, 1, 1.5), (8, 2), (3, 1, 1, 1, 1, 1))
+DASHES = ((), (5, 1.5), (1.5, 1.2), (5, 1.5, 1, 1.5), (8, 2), (3, 1, 1, 1, 1, 1), (9, 1.5, 3, 1.5))
 
 
 def kinds_and_dashes(groups, family):
