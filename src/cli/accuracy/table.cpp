@@ -228,8 +228,8 @@ std::string clipping_table(const FamilyTable& t) {
 std::string cube_table(const CubeResult& cube) {
   std::string text = fmt::format("\nrotating cube: wrong pixels per frame, {} frames of {}x{}\n", cube.frames,
                                  cube.width, cube.height);
-  text += fmt::format("{:<17}{:>25}{:>27}{:>11}\n", "", "gaps", "double hits", "snapped");
-  constexpr const char* kLine = "{:<17}{:>8}{:>7}{:>10}{:>10}{:>7}{:>10}{:>11}\n";
+  text += fmt::format("{:<18}{:>24}{:>27}{:>11}\n", "", "gaps", "double hits", "snapped");
+  constexpr const char* kLine = "{:<18}{:>7}{:>7}{:>10}{:>10}{:>7}{:>10}{:>11}\n";
   text += fmt::format(kLine, "method", "median", "worst", "total", "median", "worst", "total", "total");
   for (const CubeMethodResult& m : cube.methods)
     text += fmt::format(kLine, m.name, m.gaps.median, m.gaps.worst, m.gaps.total, m.double_hits.median,
