@@ -50,7 +50,8 @@ std::size_t MethodScene::triangles() const {
   return std::visit(Overloaded{[](const lab::CoverageScene& s) { return s.floats.size(); },
                                [](const lab::VisibilityScene& s) { return s.triangles.size(); },
                                [](const lab::FacingScene& s) { return s.faces.size(); },
-                               [](const lab::ClippingScene& s) { return s.mesh().triangles.size(); }},
+                               [](const lab::ClippingScene& s) { return s.mesh().triangles.size(); },
+                               [](const lab::ProjectionScene&) { return std::size_t{0}; }},
                     *scene_);
 }
 
@@ -117,6 +118,8 @@ std::vector<MethodDraw> method_draws(lab::LabScene info, std::span<const lab::Pe
       break;
     case lab::Family::clipping:
       add_all(lab::clipping_methods());
+      break;
+    case lab::Family::projection:  // references, not optimized
       break;
   }
   return draws;

@@ -16,7 +16,7 @@ class Family:
     trials: str  # the key of a scene's number of trials
     trial: str  # what is tried
     cost: str
-    reading: str  # how to read the chart of errors against speed; empty: plot_frontier.py draws it
+    reading: str  # how to read the chart of errors against speed; empty: plot_frontier.py draws it, or the family is not timed
     truths: tuple = ("score",)  # keys of the scores: the main truth first
     kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
     beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
@@ -33,7 +33,7 @@ class Family:
 PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "ns per covered pixel",
-           "", ("float", "snapped"),
+           "", ("source", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
             "tiled, other numbers": ("engine",), "peers": PEERS},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
@@ -44,11 +44,13 @@ FAMILIES = {family.name: family for family in (
             "depth buffer": ("float", "reversed", "unorm")}),
     Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "visible faces", "ns per face",
            "Front faces are judged by the exact sign of the projected area before any snapping. Filled: no misjudged face given the "
-           "snapped positions.", ("float", "snapped"),
+           "snapped positions.", ("source", "snapped"),
            {"signed area": ("float_area",), "normal": ("normal",)}),
     Family("clipping", "wrong pixels per 10⁶ covered", "covered", "covered pixels", "ns per covered pixel",
            "Pixels are judged by rays that need no clipping; differences within 1/64 px of an edge do not count.",
            beyond="More than 10⁶: pixels drawn where nothing should be count as well"),
+    Family("projection", "samples of single triangles that differ from the exact projection of the scene's vertices, per 10⁶ edge crossings",
+           "crossings", "edge crossings", "", "", kinds={"one matrix": ("matrix",), "exact, then rounded": ("exact",)}),
 )}
 
 
@@ -66,6 +68,7 @@ class Method:
     max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
     simd_note: str = ""  # coverage: why there is no SIMD form
     engine: bool = False  # our SIMD engine with one kind of numbers
+    other_bits: bool = False  # projection: one of many subpixel bits
 
     @property
     def limit_px(self):
@@ -80,7 +83,7 @@ class Method:
     @property
     def apart(self):
         """Whether only the main chart shows it, not the charts of methods."""
-        return self.engine or self.peer
+        return self.engine or self.peer or self.other_bits
 
     @property
     def ours(self):
@@ -279,7 +282,7 @@ def times_of(bench):
 def parse_accuracy(data, bench=None):
     times = times_of(bench)
     methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]), m.get("max_side_px"),
-                                                   m.get("simd_note", ""), bool(m.get("engine")))
+                                                   m.get("simd_note", ""), bool(m.get("engine")), bool(m.get("other_bits")))
                for m in data["methods"]}
     scenes = []
     for scene in data["scenes"]:

@@ -16,12 +16,14 @@ std::size_t pixels_of(Window w) {
   return static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height);
 }
 
-void add_edges(std::span<const FloatTriangle> triangles, std::vector<Line>& lines) {
-  for (const auto& [t, payload] : triangles)
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      lines.push_back({double{t.x_px[i]}, double{t.y_px[i]}, double{t.x_px[j]}, double{t.y_px[j]}});
+void add_edges(const SourceTruth& source, std::vector<Line>& lines) {
+  for (std::uint32_t t = 0; t < source.size(); ++t) {
+    const auto outline = source.outline(t);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const glm::dvec3 &from = outline[i], &to = outline[(i + 1) % outline.size()];
+      lines.push_back({from.x, from.y, to.x, to.y});
     }
+  }
 }
 
 using Polygon = std::vector<glm::dvec2>;  // px
@@ -55,7 +57,7 @@ std::uint32_t colour_of(Mark mark) {
 }
 
 MarkedPicture mark_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const Cracks& cracks,
-                            std::span<const FloatTriangle> triangles) {
+                            const SourceTruth& source) {
   const Window w = truth.window;
   MarkedPicture picture{w,
                         std::vector<std::uint32_t>(pixels_of(w), kNoTriangle),
@@ -83,7 +85,7 @@ MarkedPicture mark_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, 
                                       {&cracks.gaps, Mark::gap},
                                       {&cracks.t_gaps, Mark::gap}})
     for (const Sample& sample : *samples) picture.marks[pixel_at(sample.x, sample.y)] = mark;
-  add_edges(triangles, picture.lines);
+  add_edges(source, picture.lines);
   return picture;
 }
 
@@ -111,8 +113,8 @@ MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> fa
       const glm::dvec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
       picture.lines.push_back({a.x, a.y, b.x, b.y});
     }
-    const bool keep = kept[i] != 0, front = facts[i].floats.front;
-    if (!facts[i].floats.covers_sample || (!front && !keep)) continue;
+    const bool keep = kept[i] != 0, front = facts[i].source.front;
+    if (!facts[i].source.covers_sample || (!front && !keep)) continue;
     for (int y = 0; y < window.height; ++y)
       for (int x = 0; x < window.width; ++x) {
         if (!contains(polygon, x + 0.5, y + 0.5)) continue;

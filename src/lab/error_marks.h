@@ -35,8 +35,9 @@ struct MarkedPicture {
   std::vector<Mark> marks;
   std::vector<Line> lines;
 };
+// `source` is that of the truth and of the drawn triangles.
 MarkedPicture mark_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const Cracks& cracks,
-                            std::span<const FloatTriangle> triangles);
+                            const SourceTruth& source);
 MarkedPicture mark_visible_triangles(std::span<const std::uint32_t> truth,
                                      std::span<const std::uint32_t> drawn, Window window);
 // Shows the front faces, and marks the pixels of faces that a facing test kept or dropped by mistake.

@@ -6,6 +6,7 @@
 #include "lab/clipping/clipping.h"
 #include "lab/coverage/coverage.h"
 #include "lab/facing/facing.h"
+#include "lab/projection/projection.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
@@ -13,7 +14,7 @@ namespace edgewise::lab {
 namespace {
 
 constexpr std::array<std::string_view, kFamilies.size()> kNames{"coverage", "visibility", "facing",
-                                                                "clipping"};
+                                                                "clipping", "projection"};
 
 template <typename Methods>
 std::vector<MethodInfo> infos(const Methods& methods) {
@@ -43,6 +44,8 @@ std::vector<MethodInfo> methods_of(Family family) {
       return infos(facing_methods());
     case Family::clipping:
       return infos(clipping_methods());
+    case Family::projection:
+      return infos(projection_methods());
   }
   throw std::invalid_argument("not a family");
 }

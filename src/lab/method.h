@@ -46,9 +46,10 @@ constexpr double rate_bound(std::uint64_t trials) {
   return trials == 0 ? std::numeric_limits<double>::infinity() : 3.0 / static_cast<double>(trials);
 }
 
-// The four families of methods that the laboratory compares.
-enum class Family { coverage, visibility, facing, clipping };
-inline constexpr std::array kFamilies{Family::coverage, Family::visibility, Family::facing, Family::clipping};
+// The families of methods that the laboratory compares.
+enum class Family { coverage, visibility, facing, clipping, projection };
+inline constexpr std::array kFamilies{Family::coverage, Family::visibility, Family::facing, Family::clipping,
+                                      Family::projection};
 
 std::string_view name_of(Family family);
 // Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.

@@ -92,14 +92,17 @@ ClippingScene around_the_camera(int count, Size size) {
   return s;
 }
 
-CoverageScene scene_of(const Drawable& drawable, Size size) {
-  const Cull cull = std::holds_alternative<TriangleStream>(drawable) ? Cull::none : Cull::back;
-  return coverage_scene(drawable, {size.width, size.height, cull, false});
+CoverageScene scene_of(const Drawable& drawable, Size size, int subpixel_bits) {
+  return coverage_scene(drawable,
+                        {.width = size.width,
+                         .height = size.height,
+                         .cull = std::holds_alternative<TriangleStream>(drawable) ? Cull::none : Cull::back,
+                         .subpixel_bits = subpixel_bits});
 }
 
 class Catalogue {
  public:
-  explicit Catalogue(bool quick) : quick_(quick) {}
+  Catalogue(bool quick, int subpixel_bits) : quick_(quick), subpixel_bits_(subpixel_bits) {}
 
   std::vector<LabScene> built_in() {
     // First, because the speed charts use it: a scene on which both references agree.
@@ -107,16 +110,22 @@ class Catalogue {
       const bool small = c.size.width < 1000;
       const bool timed = c.name == "mesh_on_grid" || (c.name == "mesh" && !quick_);
       const double cost_s = small ? 0.1 : quick_ ? 1.0 : 6.0;
-      add(Family::coverage, c.name, c.summary, timed, small, cost_s, [&c] {
+      add(Family::coverage, c.name, c.summary, timed, small, cost_s, [&c, bits = subpixel_bits_] {
         auto floats = c.make();
-        auto rounded = snapped(floats);
-        return CoverageScene{c.size, std::move(floats), std::move(rounded)};
+        auto rounded = snapped(floats, bits);
+        return CoverageScene{c.size, std::move(floats), std::move(rounded), bits};
       });
     }
     const Size seen = quick_ ? kQuick : kNormalSize;
     add(Family::visibility, "deep_soup", "20,000 intersecting triangles, near and far", true, false,
         quick_ ? 0.5 : 3.0, [seen] { return visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
+    add_projection("fine_sphere", "a sphere of 128 x 192 cells, near the camera",
+                   quick_ ? kNormalSize : kFullHd, quick_ ? 0.5 : 2.0, [quick = quick_](int frame) {
+                     Scene scene = quick ? sphere_scene(32, 48) : sphere_scene(128, 192);
+                     scene.instances.front().angle = static_cast<float>(frame);
+                     return scene;
+                   });
     for (const VisibilityCase& c : visibility_cases())
       add(Family::visibility, c.name, c.summary, false, true, 0.1, c.make);
     for (const FacingCase& c : facing_cases())
@@ -148,12 +157,25 @@ class Catalogue {
     const SceneRequest request{size.width, size.height, 0.0f, quick_ ? extent.quick_scale : extent.scale};
     const double cost_s = quick_ ? extent.quick_cost_s : extent.cost_s;
     add(Family::coverage, info.name, info.summary, extent.timed, false, cost_s,
-        [&info, request, size] { return scene_of(info.make(request), size); });
+        [&info, request, size, bits = subpixel_bits_] { return scene_of(info.make(request), size, bits); });
     if (info.stream) return;
     const Size seen = quick_ ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
     add(Family::visibility, info.name, info.summary, false, false, cost_s / 2, [&info, for_visibility, seen] {
       return visibility_scene(std::get<Scene>(info.make(for_visibility)), seen, Cull::back);
+    });
+    add_projection(info.name, info.summary, size, 2 * cost_s, [&info, request](int frame) {
+      SceneRequest at = request;
+      at.time = static_cast<float>(frame);
+      return std::get<Scene>(info.make(at));
+    });
+  }
+
+  void add_projection(std::string_view name, std::string_view summary, Size size, double cost_s,
+                      std::function<Scene(int)> make) {
+    const int frames = quick_ ? 1 : 4;
+    add(Family::projection, name, summary, false, false, frames * cost_s, [size, frames, make] {
+      return ProjectionScene{size, frames, make};
     });
   }
 
@@ -170,26 +192,32 @@ class Catalogue {
   }
 
   bool quick_;
+  int subpixel_bits_;
   std::vector<LabScene> list_;
 };
 
 }  // namespace
 
-std::vector<LabScene> lab_scenes(bool quick) {
-  return Catalogue(quick).built_in();
+std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits) {
+  return Catalogue(quick, subpixel_bits).built_in();
 }
 
-std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load) {
-  std::vector<LabScene> scenes{{Family::coverage, name, "your file", true, false, 5.0, [load] {
+std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
+                                 int subpixel_bits) {
+  std::vector<LabScene> scenes{{Family::coverage, name, "your file", true, false, 5.0, [load, subpixel_bits] {
                                   const SizedDrawable own = load();
-                                  return AnyScene(scene_of(own.drawable, own.size));
+                                  return AnyScene(scene_of(own.drawable, own.size, subpixel_bits));
                                 }}};
-  if (!stream)
-    scenes.push_back({Family::visibility, name, "your file", true, false, 5.0, [load] {
-                        const SizedDrawable own = load();
-                        return AnyScene(
-                            visibility_scene(std::get<Scene>(own.drawable), own.size, Cull::back));
-                      }});
+  if (stream) return scenes;
+  scenes.push_back({Family::visibility, name, "your file", true, false, 5.0, [load] {
+                      const SizedDrawable own = load();
+                      return AnyScene(visibility_scene(std::get<Scene>(own.drawable), own.size, Cull::back));
+                    }});
+  scenes.push_back({Family::projection, name, "your file", false, false, 5.0, [load] {
+                      const SizedDrawable own = load();
+                      return AnyScene(ProjectionScene{
+                          own.size, 1, [scene = std::get<Scene>(own.drawable)](int) { return scene; }});
+                    }});
   return scenes;
 }
 

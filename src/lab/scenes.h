@@ -11,11 +11,12 @@
 #include "lab/coverage/coverage.h"
 #include "lab/facing/facing.h"
 #include "lab/method.h"
+#include "lab/projection/projection.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
 
-using AnyScene = std::variant<CoverageScene, VisibilityScene, FacingScene, ClippingScene>;
+using AnyScene = std::variant<CoverageScene, VisibilityScene, FacingScene, ClippingScene, ProjectionScene>;
 
 struct LabScene {
   Family family;
@@ -26,15 +27,17 @@ struct LabScene {
   std::function<AnyScene()> make;
 };
 
-// Family by family. `quick`: smaller scenes, and fewer of them are timed.
-std::vector<LabScene> lab_scenes(bool quick);
+// Family by family. `quick`: smaller scenes, and fewer of them are timed. Backends get positions of so many
+// subpixel bits.
+std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits = 8);
 
 // A mesh or stream, and the size of its picture.
 struct SizedDrawable {
   Drawable drawable;
   Size size;
 };
-// The user's own scene: one for coverage, and for a mesh one for visibility.
-std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load);
+// The user's own scene: one for coverage, and for a mesh one for visibility and one for projection.
+std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
+                                 int subpixel_bits = 8);
 
 }  // namespace edgewise::lab

@@ -348,7 +348,7 @@ Judgement Pipeline::judge(const lab::StageMethods& choice, const View& view, Tru
   const lab::Cracks cracks =
       lab::CrackJudge(triangles.floats, covered).find(runs, choice.coverage->promise.snap_bits);
   judgement.gaps = cracks.gaps.size(), judgement.double_hits = cracks.double_hits.size();
-  const auto marked = lab::mark_coverage(covered, runs, cracks, triangles.floats);
+  const auto marked = lab::mark_coverage(covered, runs, cracks, lab::FloatSource(triangles.floats));
   for (std::size_t i = 0; i < marked.marks.size(); ++i)
     if (marked.marks[i] == lab::Mark::gap || marked.marks[i] == lab::Mark::twice)
       judgement.marks[i] = marked.marks[i];

@@ -122,7 +122,7 @@ EXPORT(open_cube) void open_cube(float angle) {
   cube.camera = {};
   cube.camera.position = {0.0f, 0.0f, 3.0f};
   cube.camera.fov_y = 1.5707964f;  // 90 degrees
-  open(coverage_scene(cube, {.width = 160, .height = 96}), true);
+  open(coverage_scene_of_floats(cube, {.width = 160, .height = 96}), true);
 }
 
 // Makes room for triangles. The caller writes their positions, and calls judge().
@@ -143,7 +143,7 @@ EXPORT(judge) const Verdict* judge(int index) {
   const DrawnRuns drawn(method, scene.input(), scene.window());
   const Cracks cracks = CrackJudge(scene.floats, *truth).find(drawn, method.promise.snap_bits);
   const CoverageScore score = score_coverage(*truth, drawn, scene.floats);
-  marks = mark_coverage(*truth, drawn, cracks, scene.floats).marks;
+  marks = mark_coverage(*truth, drawn, cracks, FloatSource(scene.floats)).marks;
 
   Canvas canvas(scene.size.width, scene.size.height);
   method.draw(scene.input(), canvas, {});

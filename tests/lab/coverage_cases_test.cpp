@@ -85,14 +85,15 @@ TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {
 // ---- Visible triangles and depths, checked by hand, by brute force, and by rule 6
 
 VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
-  return VisibleTriangleJudge(picture.input, {picture.window.width, picture.window.height}, 2)
+  return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid},
+                              2)
       .score(find_coverage_method(method));
 }
 
 TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
   const Picture& quad = picture_of("drtk_quad");
-  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_floats, 6u) << "the diagonal is not drawn";
-  EXPECT_EQ(visible_triangles_of("float_le", quad).wrong_floats, 6u)
+  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_source, 6u) << "the diagonal is not drawn";
+  EXPECT_EQ(visible_triangles_of("float_le", quad).wrong_source, 6u)
       << "the first triangle draws the diagonal, which belongs to the second";
   EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
 }
@@ -100,7 +101,7 @@ TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
 TEST(CoverageVisibleTriangles, OfBackendsAreExactAndDepthsSatisfyRuleSix) {
   for (const CoverageCase& c : coverage_cases()) {
     const Picture& picture = picture_of(c.name);
-    const VisibleTriangleJudge judge(picture.input, c.size, 2);
+    const VisibleTriangleJudge judge({c.size, picture.floats, picture.grid}, 2);
     for (const auto& backend : backends()) {
       const VisibleTriangleScore score = judge.score(find_coverage_method(backend.name));
       EXPECT_EQ(score.wrong_snapped, 0u) << backend.name << " in " << c.name;
@@ -145,7 +146,7 @@ TEST(CoverageVisibleTriangles, DepthErrorsInUlpMatchBruteForce) {
   EXPECT_GT(most, 0.5);
   EXPECT_NEAR(score.max_ulp, most, 1e-6);
   EXPECT_NEAR(score.rms_ulp, std::sqrt(squares / count), 1e-6);
-  EXPECT_EQ(score.wrong_floats, 0u);
+  EXPECT_EQ(score.wrong_source, 0u);
 }
 
 }  // namespace

@@ -226,7 +226,7 @@ TEST(Cracks, AreMarkedInPictures) {
   for (const auto& [name, mark] : {std::pair("float_lt", Mark::gap), {"float_le", Mark::twice}}) {
     const CoverageMethod& method = testing::find_coverage_method(name);
     const auto marked = mark_coverage(picture.by_floats, testing::drawn_by(method, picture),
-                                      cracks_of(method, picture), picture.floats);
+                                      cracks_of(method, picture), FloatSource(picture.floats));
     EXPECT_EQ(std::ranges::count(marked.marks, mark), 48) << name;
   }
 }

@@ -20,7 +20,7 @@ FacingScene make_case(std::string_view name) {
   return make_case_named(facing_cases(), name);
 }
 FacingScore judge(std::string_view name, const FacingScene& scene) {
-  return score(method(name), scene, facing_facts(scene)).floats;
+  return score(method(name), scene, facing_facts(scene)).source;
 }
 
 TEST(Facing, EveryMethodKeepsItsPromiseAndFailsOnFloatInputSomewhere) {
@@ -30,9 +30,9 @@ TEST(Facing, EveryMethodKeepsItsPromiseAndFailsOnFloatInputSomewhere) {
     const auto facts = facing_facts(scene);
     for (const auto& m : facing_methods()) {
       const auto s = score(m, scene, facts);
-      EXPECT_GT(s.floats.faces, 0u) << c.name;
+      EXPECT_GT(s.source.faces, 0u) << c.name;
       EXPECT_EQ(s.broken, 0u) << m.info.name << " on " << c.name;
-      wrong[m.info.name] += s.floats.misclassified - s.floats.misled;
+      wrong[m.info.name] += s.source.misclassified - s.source.misled;
     }
   }
   for (const auto& m : facing_methods()) EXPECT_GT(wrong[m.info.name], 0u) << m.info.name;
@@ -50,9 +50,9 @@ TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
     EXPECT_EQ(s.snapped.misclassified, s.snapped.misled) << c.name;
     std::uint64_t by_snapping = 0;
     for (const FaceFacts& f : facts)
-      by_snapping += f.floats.covers_sample && !f.floats.first_three_differ &&
-                     !f.snapped.first_three_differ && f.floats.front != f.snapped.front;
-    EXPECT_EQ(s.floats.misclassified - s.floats.misled, by_snapping) << c.name;
+      by_snapping += f.source.covers_sample && !f.source.first_three_differ &&
+                     !f.snapped.first_three_differ && f.source.front != f.snapped.front;
+    EXPECT_EQ(s.source.misclassified - s.source.misled, by_snapping) << c.name;
     turned += by_snapping;
   }
   EXPECT_GT(turned, 0u);
@@ -64,7 +64,7 @@ TEST(Facing, TheSignBeforeSnappingMisjudgesSnappedFaces) {
   const auto facts = facing_facts(scene);
   const auto ours = score(method("snapped_area"), scene, facts),
              in_float = score(method("float_area"), scene, facts);
-  EXPECT_GT(ours.floats.misclassified, 10u);
+  EXPECT_GT(ours.source.misclassified, 10u);
   EXPECT_GT(in_float.snapped.misclassified, 10u);
   EXPECT_EQ(ours.snapped.misclassified, 0u);
 }
@@ -72,11 +72,11 @@ TEST(Facing, TheSignBeforeSnappingMisjudgesSnappedFaces) {
 TEST(Facing, OnlyNormalZMisjudgesTheBoxBesideTheAxis) {
   const FacingScene scene = make_case("box_beside_the_axis");
   const auto facts = facing_facts(scene);
-  EXPECT_TRUE(facts[0].floats.front && facts[0].floats.covers_sample);
+  EXPECT_TRUE(facts[0].source.front && facts[0].source.covers_sample);
   for (const auto& m : facing_methods()) {
     const auto s = score(m, scene, facts);
     const bool by_z = m.info.name == "normal_z";
-    EXPECT_EQ(s.floats.misclassified, by_z ? 1u : 0u) << m.info.name;
+    EXPECT_EQ(s.source.misclassified, by_z ? 1u : 0u) << m.info.name;
     EXPECT_EQ(s.snapped.misclassified, by_z ? 1u : 0u) << m.info.name;
     EXPECT_EQ(s.disagreements, by_z ? 1u : 0u) << m.info.name;
   }
@@ -109,7 +109,7 @@ TEST(Facing, TheSignOfTheProjectedAreaTellsTheCamerasSide) {
     const glm::dvec3 a(scene.positions[3 * i]), b(scene.positions[3 * i + 1]), c(scene.positions[3 * i + 2]);
     const double side = glm::dot(glm::cross(c - a, b - a), glm::dvec3(scene.view.eye) - a);
     if (std::abs(side) > 1e-6) {
-      EXPECT_EQ(facts[i].floats.front, side > 0) << i;
+      EXPECT_EQ(facts[i].source.front, side > 0) << i;
     }
   }
 }
@@ -133,9 +133,9 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVerticesOrTheirNormal) {
     const auto facts = facing_facts(scene);
     std::uint64_t differing = 0, quads_differing = 0, normals_differing = 0;
     for (std::size_t i = 0; i < facts.size(); ++i) {
-      if (!facts[i].floats.covers_sample) continue;
+      if (!facts[i].source.covers_sample) continue;
       normals_differing += facts[i].normal_differs;
-      if (!facts[i].floats.first_three_differ) continue;
+      if (!facts[i].source.first_three_differ) continue;
       ++differing;
       quads_differing += scene.faces[i].count == 4;
       EXPECT_GT(scene.faces[i].count, 3u);
@@ -155,10 +155,10 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVerticesOrTheirNormal) {
       EXPECT_EQ(s.broken, 0u) << m.info.name;
       if (m.info.name == "normal_z" || m.info.name == "normal_dot_object") continue;  // they err by the tilt
       const std::uint64_t misleading = m.by_normal ? normals_differing : differing;
-      EXPECT_LE(s.floats.misclassified, misleading + 2) << m.info.name;
-      EXPECT_LE(s.floats.misled, misleading) << m.info.name;
+      EXPECT_LE(s.source.misclassified, misleading + 2) << m.info.name;
+      EXPECT_LE(s.source.misled, misleading) << m.info.name;
       if (!m.by_normal) {
-        EXPECT_GE(s.floats.misclassified + 2, differing) << m.info.name;
+        EXPECT_GE(s.source.misclassified + 2, differing) << m.info.name;
       }
     }
   }
@@ -171,12 +171,12 @@ TEST(Facing, ANonPlanarQuadCanFaceOppositeToItsFirstTriangle) {
   scene.positions = {{-1, 0, 4}, {0, 0.5f, 4}, {1, 0, 4}, {0, 1, 6}};
   scene.add_face(0);
   const auto facts = facing_facts(scene);
-  EXPECT_TRUE(facts[0].floats.first_three_differ);
+  EXPECT_TRUE(facts[0].source.first_three_differ);
   EXPECT_TRUE(facts[0].snapped.first_three_differ);
   for (const auto& m : facing_methods()) {
     const auto s = score(m, scene, facts);
-    EXPECT_EQ(s.floats.misclassified, m.by_normal ? 0u : 1u) << m.info.name;
-    EXPECT_EQ(s.floats.misled, s.floats.misclassified) << m.info.name;
+    EXPECT_EQ(s.source.misclassified, m.by_normal ? 0u : 1u) << m.info.name;
+    EXPECT_EQ(s.source.misled, s.source.misclassified) << m.info.name;
     EXPECT_EQ(s.snapped.misled, s.snapped.misclassified) << m.info.name;
   }
 }

@@ -193,7 +193,7 @@ TEST(CoverageSweeps, SnappingErrsOffItsGridOnlyAndAsOftenAsRoundingMovesEdgesAcr
   constexpr std::pair<std::string_view, double> kMethods[] = {{"fixed_4", 1.0 / 32}, {"tiled", 1.0 / 512}};
   // A row, column or diagonal of samples errs if an edge within h on one side of it is rounded onto it.
   const Sweep& legs = find_sweep("legs_off_grid");
-  const SweepResult all_legs{&legs, std::vector<Measured>(legs.positions.size(), legs.measure(64, false))};
+  const SweepResult all_legs{&legs, std::vector<Measured>(legs.positions.size(), legs.measure(64, false, 8))};
   for (const auto& [method, h] : kMethods)
     EXPECT_NEAR(rate(Found(all_legs, method).at(64)), h, 0.1 * h) << method;
   // An edge in any direction moves along the rows or columns by h / 3 to 2 h / 3, in the mean over its

@@ -255,7 +255,7 @@ TEST(Visibility, BothTruthsMatchTheCoverageFamilysUpToDepthRounding) {
     };
     EXPECT_LE(differ(visible.snapped, exact_visible_triangles(screen_of(scene), window, 1).triangle), 2u)
         << name;
-    EXPECT_LE(differ(visible.floats, exact_visible_triangles(floats, window, 1).triangle), 2u) << name;
+    EXPECT_LE(differ(visible.source, exact_visible_triangles(floats, window, 1).triangle), 2u) << name;
   }
 }
 

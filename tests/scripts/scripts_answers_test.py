@@ -99,7 +99,7 @@ class AnswersTest(unittest.TestCase):
         score = {"errors_per_million": 0.0}
         data = {"methods": [{"family": "coverage", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
                 "scenes": [{"name": "s", "family": "coverage", "summary": "", "covered": 500, "triangles": 20, "crossings": 9,
-                            "methods": [{"name": name, "float": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
+                            "methods": [{"name": name, "source": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
         rows = {"lab/s/family:coverage/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:coverage/method:m/simd:scalar/threads:2": 3.0,
                 "lab/s/family:coverage/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:coverage/method:m/simd:avx512/threads:2": 1.0,
                 "lab/s/family:coverage/method:naive/simd:scalar/threads:1": 4.0, "lab/t/family:coverage/method:naive/simd:scalar/threads:2": 1.0,

@@ -95,7 +95,7 @@ def accuracy():
         score = judged(wrong, 1000)
         cracks = {"cracks": {"gaps": wrong, "double_hits": 0, "t_junctions": 0, "folds": 0}} if family == "coverage" else {}
         return {"name": method, **cracks, **({"score": score} if family == "clipping" else
-                                            {"float": {**score, "wrong_pixels": wrong, "wrong_surface_pixels": 0}, "snapped": score})}
+                                            {"source": {**score, "wrong_pixels": wrong, "wrong_surface_pixels": 0}, "snapped": score})}
 
     return {"quick": False,
             "methods": [{"family": family, "name": name, "source": source, "promise": "as told", "exact": exact}
@@ -345,9 +345,9 @@ class ScriptsTest(FolderTest):
 
     def test_malformed_laboratory_gets_one_line(self):
         data = accuracy()
-        del data["scenes"][0]["methods"][1]["float"]
+        del data["scenes"][0]["methods"][1]["source"]
         self.add_facts(data)
-        self.fails(run("summary", self.results), "accuracy.json", "edgewise accuracy", "'float'")
+        self.fails(run("summary", self.results), "accuracy.json", "edgewise accuracy", "'source'")
         self.add_facts()
         (self.results / "peers.json").write_text('{"methods": []}')
         self.fails(run("summary", self.results), "peers.json", "edgewise accuracy --peers", "'scenes'")

@@ -271,7 +271,7 @@ class Page:
                 if method["name"].startswith("engine_"):  # not on the page
                     continue
                 self.choose(method["name"])
-                expected = method["float"]["missing"] + method["float"]["extra"]
+                expected = method["source"]["missing"] + method["source"]["extra"]
                 self.assertEqual(self.counts()["wrong"], expected, f"{case}, {method['name']}")
 
     def test_the_cube_tears_while_its_diagonal_runs_through_samples(self):

@@ -51,14 +51,15 @@ bool is_judged_by_default(const lab::LabScene& scene) {
   return scene.name != "quads" && scene.name != "knots";
 }
 
-std::vector<lab::LabScene> scenes_of_file(const std::string& path, bool fit) {
+std::vector<lab::LabScene> scenes_of_file(const std::string& path, const AccuracyPlan& plan) {
   check_source(path);
-  return lab::own_scenes(source_name(path), is_stream_file(path), [path, fit] {
+  const auto load = [path, fit = plan.fit] {
     SceneOptions options;
     options.fit = fit;
     Shot shot = load_shot(path, options, 0.0);
     return lab::SizedDrawable{std::move(shot.source.drawable), {shot.frontend.width, shot.frontend.height}};
-  });
+  };
+  return lab::own_scenes(source_name(path), is_stream_file(path), load, plan.subpixel_bits);
 }
 
 [[noreturn]] void reject(const std::string& name, const std::vector<lab::LabScene>& known) {
@@ -81,6 +82,7 @@ bool broke_promise(const MethodResult& method) {
     bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }
     bool operator()(const lab::FacingScores& s) const { return s.broken != 0; }
     bool operator()(const lab::ClippingScore& s) const { return s.broken != 0; }
+    bool operator()(const lab::ProjectionScore& s) const { return exact && s.by_projection != 0; }
   };
   return std::visit(Visit{method.exact}, method.score);
 }
@@ -139,7 +141,8 @@ class Run {
 }  // namespace
 
 std::size_t ChosenMethods::count(Family family) const {
-  const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size()};
+  const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size(),
+                                projection.size()};
   return counts[static_cast<std::size_t>(family)];
 }
 
@@ -149,6 +152,7 @@ std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() cons
   for (const auto* method : visibility) list.emplace_back(Family::visibility, &method->info);
   for (const auto* method : facing) list.emplace_back(Family::facing, &method->info);
   for (const auto* method : clipping) list.emplace_back(Family::clipping, &method->info);
+  for (const auto* method : projection) list.emplace_back(Family::projection, &method->info);
   return list;
 }
 
@@ -164,15 +168,18 @@ ChosenMethods methods_of(const AccuracyPlan& plan) {
     return chosen;
   }
   choose(plan, Family::coverage, lab::coverage_methods(), chosen.coverage);
-  choose(plan, Family::coverage, lab::engine_methods(), chosen.coverage);
+  // The engine's other numbers are made for positions of 8 bits.
+  if (plan.subpixel_bits == 8) choose(plan, Family::coverage, lab::engine_methods(), chosen.coverage);
   choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);
+  choose(plan, Family::projection, lab::projection_methods(), chosen.projection);
+  choose(plan, Family::projection, lab::projections_with_other_bits(), chosen.projection);
   return chosen;
 }
 
 AccuracyScenes scenes_of(const AccuracyPlan& plan) {
-  const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick);
+  const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick, plan.subpixel_bits);
   AccuracyScenes chosen;
   chosen.turning_cube = plan.scenes.empty();
   if (plan.scenes.empty())
@@ -185,7 +192,7 @@ AccuracyScenes scenes_of(const AccuracyPlan& plan) {
     if (name == kTurningCube)
       chosen.turning_cube = true;
     else if (is_file_path(name))
-      found = scenes_of_file(name, plan.fit);
+      found = scenes_of_file(name, plan);
     else
       std::copy_if(known.begin(), known.end(), std::back_inserter(found),
                    [&](const lab::LabScene& scene) { return scene.name == name; });

@@ -13,6 +13,7 @@
 #include "cli/accuracy/closeup.h"
 #include "lab/coverage/cracks.h"
 #include "lab/coverage/visible.h"
+#include "lab/projection/projection.h"
 #include "lab/scenes.h"
 
 namespace edgewise::tools {
@@ -23,6 +24,7 @@ struct AccuracyPlan {
   std::vector<std::string> scenes;   // names or paths; none: the built-in default scenes
   std::vector<std::string> methods;  // none: all
   std::optional<Family> family;      // none: all
+  int subpixel_bits = 8;             // of the backends' positions
   bool quick = false;                // small sizes, few frames
   bool fit = false;                  // see load_source
   bool pictures = false;             // whether to keep close-ups of errors
@@ -44,11 +46,12 @@ struct CrackCounts {
 };
 
 struct CoverageScores {
-  lab::CoverageScore snapped, floats;  // against each reference: positions after and before snapping
+  lab::CoverageScore snapped, source;  // against each reference: the snapped positions, and the source
   CrackCounts cracks;
   lab::VisibleTriangleScore visible;
 };
-using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
+using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore,
+                           lab::ProjectionScore>;
 
 struct MethodResult {
   std::string name;
@@ -62,17 +65,19 @@ struct SceneResult {
   bool smallest;  // see LabScene
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
-  // Coverage: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that cover a sample.
-  // Counted by the exact reference: the snapped one where there are two, but for facing the one before
-  // snapping.
+  // Coverage and projection: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that
+  // cover a sample.
+  // Counted by the exact reference: the snapped one where there are two, but for facing that of the source.
   std::uint64_t covered = 0;
-  std::uint64_t crossings = 0;         // coverage only: of edges with rows or columns of samples
+  std::uint64_t crossings = 0;         // coverage and projection: of edges with rows or columns of samples
   std::uint64_t shared_crossings = 0;  // coverage only: of edges that triangles share
   float largest_side_px = 0;           // coverage only: of the triangles' bounding boxes
   std::vector<MethodResult> methods;
 
   // The denominator of error rates.
-  std::uint64_t trials() const { return family == Family::coverage ? crossings : covered; }
+  std::uint64_t trials() const {
+    return family == Family::coverage || family == Family::projection ? crossings : covered;
+  }
 };
 
 struct PerFrame {
@@ -84,7 +89,7 @@ struct CubeCounts {
 struct CubeMethodResult {
   std::string name;
   bool exact;
-  CubeCounts snapped, floats;  // against each reference
+  CubeCounts snapped, source;  // against each reference
   PerFrame gaps, double_hits;
 };
 struct CubeResult {

@@ -54,11 +54,12 @@ constexpr const char* kAccuracyFooter = R"(Examples:
   edgewise accuracy bunny.obj capture.tri    your own files
   edgewise accuracy turning-cube drtk_quad --method float_le --method float_lt
 
-Families: coverage, visibility, facing, clipping. Coverage, visibility and facing are compared with
-two exact references: one for positions snapped to 1/256 px, one for the float positions before
-snapping. The same holds for the visible triangle of each pixel. Against the snapped reference,
-exact methods have no coverage errors. They misjudge only faces whose first three vertices have
-another winding than the whole face.
+Families: coverage, visibility, facing, clipping, projection. Coverage, visibility and facing are
+compared with two exact references: one for positions snapped to 1/256 px, and the source, which is
+the exact projection of the scene's own vertices, or the floats of a stream. The same holds for the
+visible triangle of each pixel. Against the snapped reference, exact methods have no coverage
+errors. They misjudge only faces whose first three vertices have another winding than the whole
+face. Projection methods are compared with the source, and with its positions rounded exactly.
 
 Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels,
 or per 10^6 faces. If no error was observed, the number in parentheses is the 95 % upper bound of
@@ -73,8 +74,8 @@ it is not known how the peer rounds.
 
 SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, or an
 .obj or .tri file. Large streams are judged in part, always the same part, and a smaller one with
---quick. The JSON gives the number of triangles. Meshes are judged in coverage and visibility,
-streams in coverage only. Facing and clipping use their own scenes.
+--quick. The JSON gives the number of triangles. Meshes are judged in coverage, visibility and
+projection, streams in coverage only. Facing and clipping use their own scenes.
 `edgewise_bench --scene SCENE --methods` times the methods.
 
 Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
@@ -97,6 +98,8 @@ Action add_accuracy(CLI::App& command) {
       ->type_name("NAME");
   command.add_flag("--peers", o->plan.peers,
                    "Measure only other projects' rasterizers that start here (coverage)");
+  add_integer(command, "--subpixel-bits", o->plan.subpixel_bits, kMinSubpixelBits, kMaxSubpixelBits,
+              "Of positions that our backends get in the coverage family (8)");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   add_text(command, "--json", "FILE", o->json,
            "Also write all results as JSON; - for stdout, instead of the tables");

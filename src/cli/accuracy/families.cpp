@@ -1,4 +1,4 @@
-// Judges visibility, facing and clipping methods against the exact references of their family.
+// Judges visibility, facing, clipping and projection methods against the exact references of their family.
 #include <algorithm>
 
 #include "cli/accuracy/score.h"
@@ -96,7 +96,7 @@ void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& r
   result.height = scene.view.size.height;
   result.triangles = scene.faces.size();
   result.covered = static_cast<std::uint64_t>(std::count_if(
-      facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.floats.covers_sample; }));
+      facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.source.covers_sample; }));
   score_all(methods, judging, result,
             [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
   std::vector<std::uint8_t> front(scene.faces.size());
@@ -104,7 +104,7 @@ void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& r
   if (scene.faces.size() > kMostPictured) return;
   picture_all(
       methods, judging, result,
-      [](const Score& score) { return std::get<lab::FacingScores>(score).floats.misclassified != 0; },
+      [](const Score& score) { return std::get<lab::FacingScores>(score).source.misclassified != 0; },
       [&](const lab::FacingMethod& method) {
         method.classify(scene, front);
         return lab::mark_faces(scene, facts, front);
@@ -133,6 +133,26 @@ void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult&
         return lab::mark_visible_triangles(truth.visible, lab::payloads_of(frame.picture),
                                            {scene.size.width, scene.size.height});
       });
+}
+
+void judge(const lab::ProjectionScene& scene, const Judging& judging, SceneResult& result) {
+  const auto& methods = judging.methods.projection;
+  result.width = scene.size.width;
+  result.height = scene.size.height;
+  std::vector<lab::ProjectionScore> scores(methods.size());
+  for (int frame = 0; frame < scene.frames; ++frame) {
+    const lab::ProjectionJudge judge(scene.make(frame), scene.size, judging.plan.threads);
+    result.triangles += judge.triangles();
+    result.covered += judge.covered();
+    result.crossings += judge.crossings();
+    parallel_for(judging.plan.threads, static_cast<int>(methods.size()), [&](int n) {
+      const auto i = static_cast<std::size_t>(n);
+      scores[i] += judge.score(*methods[i]);
+    });
+    judging.progress(static_cast<double>(frame + 1) / scene.frames);
+  }
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    result.methods.push_back({std::string(methods[i]->info.name), methods[i]->info.exact, scores[i]});
 }
 
 }  // namespace edgewise::tools

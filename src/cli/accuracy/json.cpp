@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/accuracy/score.h"
@@ -50,14 +51,14 @@ struct AddScore {
   }
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
-    method["float"] = score_json(s.floats, scene.crossings);
+    method["source"] = score_json(s.source, scene.crossings);
     method["cracks"] = {{"gaps", s.cracks.gaps},
                         {"double_hits", s.cracks.double_hits},
                         {"t_junctions", s.cracks.t_junctions}};
     if (s.cracks.folds) method["cracks"]["folds"] = *s.cracks.folds;
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
-    add_wrong_pixels(method["float"], s.visible.wrong_floats);
-    method["float"]["wrong_surface_pixels"] = s.visible.wrong_surface;
+    add_wrong_pixels(method["source"], s.visible.wrong_source);
+    method["source"]["wrong_surface_pixels"] = s.visible.wrong_surface;
     const lab::CoverageMethod& scored = methods.find_coverage(method["name"].get<std::string>());
     if (scored.contract_depth && scored.info.exact)
       method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
@@ -66,12 +67,12 @@ struct AddScore {
   void operator()(const lab::VisibilityScores& s) const {
     method["snapped"] = score_json(s.snapped);
     method["snapped"]["depth_ties"] = s.depth_ties;
-    method["float"] = score_json(s.floats);
+    method["source"] = score_json(s.source);
     method["broken"] = s.broken;
   }
   void operator()(const lab::FacingScores& s) const {
     method["snapped"] = score_json(s.snapped);
-    method["float"] = score_json(s.floats);
+    method["source"] = score_json(s.source);
     method["disagreements"] = s.disagreements;
     method["broken"] = s.broken;
   }
@@ -89,14 +90,21 @@ struct AddScore {
                                      {"broken", s.broken}};
     add_rate(score, s.wrong(), scene.covered);
   }
+  void operator()(const lab::ProjectionScore& s) const {
+    Json& score = method["score"] = {{"errors", s.wrong},
+                                     {"by_rounding", s.by_rounding},
+                                     {"by_projection", s.by_projection},
+                                     {"folds", s.folds}};
+    add_rate(score, s.wrong, scene.crossings);
+  }
 };
 
 Json scene_json(const SceneResult& scene, const ChosenMethods& methods) {
   Json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"summary", scene.summary},
               {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
               {"covered", scene.covered}, {"smallest", scene.smallest},      {"methods", Json::array()}};
+  if (scene.crossings != 0) result["crossings"] = scene.crossings;
   if (scene.family == Family::coverage) {
-    result["crossings"] = scene.crossings;
     result["shared_crossings"] = scene.shared_crossings;
     result["largest_side_px"] = scene.largest_side_px;
   }
@@ -131,7 +139,7 @@ Json cube_json(const CubeResult& cube) {
   Json result{
       {"frames", cube.frames}, {"width", cube.width}, {"height", cube.height}, {"methods", Json::array()}};
   for (const CubeMethodResult& method : cube.methods) {
-    Json& entry = result["methods"].emplace_back(counts_json(method.floats, cube.frames));
+    Json& entry = result["methods"].emplace_back(counts_json(method.source, cube.frames));
     entry["name"] = method.name;
     entry["gaps"] = per_frame_json(method.gaps, cube.frames);
     entry["double_hits"] = per_frame_json(method.double_hits, cube.frames);
@@ -143,8 +151,11 @@ Json cube_json(const CubeResult& cube) {
 }  // namespace
 
 Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
-  Json result{
-      {"quick", plan.quick}, {"ok", report.ok()}, {"methods", Json::array()}, {"scenes", Json::array()}};
+  Json result{{"quick", plan.quick},
+              {"subpixel_bits", plan.subpixel_bits},
+              {"ok", report.ok()},
+              {"methods", Json::array()},
+              {"scenes", Json::array()}};
   const ChosenMethods methods = methods_of(plan);
   for (const auto& [family, info] : methods.all()) {
     Json& method = result["methods"].emplace_back(Json{{"family", name_of(family)},
@@ -153,6 +164,9 @@ Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
                                                        {"source", info->source},
                                                        {"promise", info->promise},
                                                        {"exact", info->exact}});
+    if (family == Family::projection)
+      method["other_bits"] = std::ranges::any_of(lab::projections_with_other_bits(),
+                                                 [&](const auto& m) { return m.info.name == info->name; });
     if (family != Family::coverage) continue;
     const lab::CoverageMethod& coverage = methods.find_coverage(info->name);
     method["max_side_px"] = coverage.promise.max_side_px;

@@ -9,14 +9,14 @@ namespace edgewise::tools {
 void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult& result) {
   const auto& methods = judging.methods.coverage;
   const auto input = scene.input();
-  const auto snapped = lab::snapped_coverage(input, scene.window(), judging.plan.threads),
-             floats = lab::float_coverage(input, scene.window(), judging.plan.threads);
+  const auto snapped = lab::snapped_coverage(input, scene.window(), judging.plan.threads);
+  const lab::SourceJudge source(scene, judging.plan.threads);
   result.width = scene.size.width;
   result.height = scene.size.height;
   result.triangles = scene.floats.size();
   result.covered = snapped.covered;
-  result.crossings = lab::edge_crossings(scene.floats, scene.window());
-  const lab::CrackJudge crack_judge(scene.floats, floats);
+  result.crossings = lab::edge_crossings(source.source(), scene.window());
+  const lab::CrackJudge crack_judge(scene.floats, source.floats());
   result.shared_crossings = crack_judge.surface().crossings(scene.window());
   result.largest_side_px = lab::largest_side_px(scene.floats);
 
@@ -24,18 +24,17 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
   std::vector<Closeup> closeups(methods.size());
   std::mutex mutex;
   std::size_t done = 0;
-  const lab::VisibleTriangleJudge visible(input, scene.size, judging.plan.threads);
+  const lab::VisibleTriangleJudge visible(scene, judging.plan.threads);
   const auto judge_one = [&](std::size_t i) {
     const lab::CoverageMethod& method = *methods[i];
     const lab::DrawnRuns drawn(method, input, scene.window());
-    const lab::Cracks cracks = crack_judge.find(drawn, method.promise.snap_bits);
-    CoverageScores scores{lab::score_coverage(snapped, drawn, scene.floats),
-                          lab::score_coverage(floats, drawn, scene.floats), CrackCounts(cracks),
-                          visible.score(method)};
-    result.methods[i] = {std::string(method.info.name), method.info.exact, scores};
-    if (judging.plan.pictures && judging.scene.smallest && scores.floats.errors() != 0)
+    const lab::Cracks cracks = crack_judge.find(drawn, scene.snap_bits(method));
+    CoverageScores scores{lab::score_coverage(snapped, drawn, scene.floats), source.score(drawn),
+                          CrackCounts(cracks), visible.score(method)};
+    result.methods[i] = {std::string(method.info.name), is_exact(method, scene.subpixel_bits), scores};
+    if (judging.plan.pictures && judging.scene.smallest && scores.source.errors() != 0)
       closeups[i] = closeup(closeup_name(Family::coverage, judging.scene.name, method.info.name),
-                            mark_coverage(floats, drawn, cracks, scene.floats));
+                            mark_coverage(source.truth(), source.of_sources(drawn), cracks, source.source()));
     const std::lock_guard lock(mutex);
     judging.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
   };

@@ -7,6 +7,7 @@
 #include "edgewise/builtin.h"
 #include "lab/cases/backend_comparison.h"
 #include "lab/coverage/pixel_changes.h"
+#include "lab/projection/truth.h"
 
 namespace edgewise::tools {
 
@@ -18,11 +19,10 @@ constexpr int kCubeFrames = 3600, kQuickCubeFrames = 120, kCubeFramesPerTask = 2
 constexpr int kMotionFrames = 24, kQuickMotionFrames = 6;
 constexpr std::string_view kMovingScenes[] = {"torus-knot", "terrain"};
 
-lab::CoverageScene scene_at(std::string_view name, int frame, FrontendOptions options = {}) {
-  options.width = kSize.width;
-  options.height = kSize.height;
+lab::CoverageScene scene_at(std::string_view name, int frame, int subpixel_bits) {
   const float seconds = static_cast<float>(frame) / static_cast<float>(kFramesPerSecond);
-  return lab::coverage_scene(find_scene(name).make({kSize.width, kSize.height, seconds}), options);
+  return lab::coverage_scene(find_scene(name).make({kSize.width, kSize.height, seconds}),
+                             {.width = kSize.width, .height = kSize.height, .subpixel_bits = subpixel_bits});
 }
 
 // All but our engine with other numbers.
@@ -57,16 +57,17 @@ CubeCounts wrong(const Scores& scores, lab::CoverageScore CoverageScores::*truth
 }
 
 // The frame with the most cracks.
-Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
+Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores, int subpixel_bits) {
   const auto worst = std::max_element(scores.begin(), scores.end(), [](const auto& a, const auto& b) {
     return a.cracks.gaps + a.cracks.double_hits < b.cracks.gaps + b.cracks.double_hits;
   });
-  const lab::CoverageScene scene = scene_at("cube", static_cast<int>(worst - scores.begin()));
-  const auto truth = lab::float_coverage(scene.input(), scene.window(), 1);
+  const lab::CoverageScene scene = scene_at("cube", static_cast<int>(worst - scores.begin()), subpixel_bits);
+  const lab::SourceJudge source(scene, 1);
   const lab::DrawnRuns drawn(method, scene.input(), scene.window());
-  const lab::Cracks cracks = lab::CrackJudge(scene.floats, truth).find(drawn, method.promise.snap_bits);
+  const lab::Cracks cracks =
+      lab::CrackJudge(scene.floats, source.floats()).find(drawn, scene.snap_bits(method));
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
-                 mark_coverage(truth, drawn, cracks, scene.floats));
+                 mark_coverage(source.truth(), source.of_sources(drawn), cracks, source.source()));
 }
 
 }  // namespace
@@ -80,16 +81,16 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   int done = 0;
   parallel_for(plan.threads, frames / kCubeFramesPerTask, [&](int task) {
     for (int frame = task * kCubeFramesPerTask; frame < (task + 1) * kCubeFramesPerTask; ++frame) {
-      const lab::CoverageScene scene = scene_at("cube", frame);
-      const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
-                 floats = lab::float_coverage(scene.input(), scene.window(), 1);
-      const lab::CrackJudge cracks(scene.floats, floats);
+      const lab::CoverageScene scene = scene_at("cube", frame, plan.subpixel_bits);
+      const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1);
+      const lab::SourceJudge source(scene, 1);
+      const lab::CrackJudge cracks(scene.floats, source.floats());
       for (std::size_t i = 0; i < judged.size(); ++i) {
         const lab::DrawnRuns drawn(*judged[i], scene.input(), scene.window());
         scores[i][static_cast<std::size_t>(frame)] = {
             lab::score_coverage(snapped, drawn, scene.floats),
-            lab::score_coverage(floats, drawn, scene.floats),
-            CrackCounts(cracks.find(drawn, judged[i]->promise.snap_bits)),
+            source.score(drawn),
+            CrackCounts(cracks.find(drawn, scene.snap_bits(*judged[i]))),
             {}};
       }
     }
@@ -101,14 +102,14 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   CubeResult result{frames, kSize.width, kSize.height, {}};
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const lab::CoverageMethod& method = *judged[i];
-    result.methods.push_back({std::string(method.info.name), method.info.exact,
+    result.methods.push_back({std::string(method.info.name), is_exact(method, plan.subpixel_bits),
                               wrong(scores[i], &CoverageScores::snapped),
-                              wrong(scores[i], &CoverageScores::floats),
+                              wrong(scores[i], &CoverageScores::source),
                               summary(scores[i], &CoverageScores::cracks, &CrackCounts::gaps),
                               summary(scores[i], &CoverageScores::cracks, &CrackCounts::double_hits)});
     const CubeMethodResult& counts = result.methods.back();
     if (plan.pictures && counts.gaps.total + counts.double_hits.total != 0)
-      add_unless_known(worst_frame(method, scores[i]), closeups, first_closeup);
+      add_unless_known(worst_frame(method, scores[i], plan.subpixel_bits), closeups, first_closeup);
   }
   return result;
 }
@@ -125,12 +126,11 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
     for (std::size_t i = 0; i < judged.size(); ++i)
       canvases.push_back(std::make_unique<lab::Canvas>(kSize.width, kSize.height));
     for (int frame = 0; frame < frames; ++frame) {
-      lab::CoverageScene scene = scene_at(name, frame, {.payload = Payload::id});
+      lab::CoverageScene scene = scene_at(name, frame, plan.subpixel_bits);
       for (std::size_t i = 0; i < scene.floats.size(); ++i)  // ids from 1; 0 is the background
         ++scene.floats[i].payload, ++scene.snapped[i].payload;
-      auto visible =
-          lab::exact_visible_triangles(std::span(scene.floats), scene.window(), plan.threads).triangle;
-      for (std::uint32_t& id : visible) id = id == lab::kNoTriangle ? 0 : scene.floats[id].payload;
+      auto visible = scene.truth->visible_triangles(scene.window(), plan.threads).triangle;
+      for (std::uint32_t& id : visible) ++id;  // kNoTriangle becomes 0
       truth.add(std::move(visible));
       parallel_for(plan.threads, static_cast<int>(judged.size()), [&](int n) {
         const auto i = static_cast<std::size_t>(n);

@@ -14,12 +14,18 @@ struct ChosenMethods {
   std::vector<const lab::VisibilityMethod*> visibility;
   std::vector<const lab::FacingMethod*> facing;
   std::vector<const lab::ClippingMethod*> clipping;
+  std::vector<const lab::ProjectionMethod*> projection;
 
   std::size_t count(Family family) const;
   std::vector<std::pair<Family, const lab::MethodInfo*>> all() const;
   const lab::CoverageMethod& find_coverage(std::string_view name) const;  // of a chosen method
 };
 ChosenMethods methods_of(const AccuracyPlan& plan);
+
+// Whether a method covers positions of so many bits exactly. Those of others than backends have 8.
+inline bool is_exact(const lab::CoverageMethod& method, int subpixel_bits) {
+  return method.info.exact && (method.backend || subpixel_bits == 8);
+}
 
 // The inputs of judge() and its sinks for progress and close-ups. `progress` is called from several threads,
 // but never concurrently.
@@ -36,6 +42,7 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
 void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResult& result);
 void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& result);
 void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult& result);
+void judge(const lab::ProjectionScene& scene, const Judging& judging, SceneResult& result);
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
                               const std::function<void(double)>& progress, std::vector<Closeup>& closeups);

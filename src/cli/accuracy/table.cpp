@@ -111,10 +111,11 @@ class FamilyTable {
   }
   static std::uint64_t errors(const Score& score) {
     struct Visit {
-      std::uint64_t operator()(const CoverageScores& s) const { return s.floats.errors(); }
+      std::uint64_t operator()(const CoverageScores& s) const { return s.source.errors(); }
       std::uint64_t operator()(const lab::VisibilityScores& s) const { return s.snapped.wrong_triangle; }
-      std::uint64_t operator()(const lab::FacingScores& s) const { return s.floats.misclassified; }
+      std::uint64_t operator()(const lab::FacingScores& s) const { return s.source.misclassified; }
       std::uint64_t operator()(const lab::ClippingScore& s) const { return s.wrong(); }
+      std::uint64_t operator()(const lab::ProjectionScore& s) const { return s.wrong; }
     };
     return std::visit(Visit{}, score);
   }
@@ -139,12 +140,12 @@ std::string visible_triangle_table(const FamilyTable& t) {
       t.scenes(), t.scenes() == 1 ? "" : "s");
   constexpr const char* kLine = "{:<21}{:>9}{:>9}{:>10}{:>12}{:>9}\n";
   text += fmt::format(kLine, "", "wrong", "wrong", "of those", "depth: max", "RMS");
-  text += fmt::format(kLine, "method", "snapped", "float", "through", "ulp", "ulp");
+  text += fmt::format(kLine, "method", "snapped", "source", "through", "ulp", "ulp");
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto sum = [&](auto count) { return t.sum(i, &CoverageScores::visible, count); };
     const auto most = [&](auto figure) { return digits(t.most(i, &CoverageScores::visible, figure)); };
     using S = lab::VisibleTriangleScore;
-    text += fmt::format(kLine, t.name(i), sum(&S::wrong_snapped), sum(&S::wrong_floats),
+    text += fmt::format(kLine, t.name(i), sum(&S::wrong_snapped), sum(&S::wrong_source),
                         sum(&S::wrong_surface), most(&S::max_ulp), most(&S::rms_ulp));
   }
   return text + "through: showing neither the right triangle nor one that touches it\n";
@@ -153,7 +154,7 @@ std::string visible_triangle_table(const FamilyTable& t) {
 std::string coverage_table(const FamilyTable& t) {
   std::string text = t.title("errors per 10^6 edge crossings", "crossings");
   constexpr const char* kLine = "{:<21}{:>11}{:>11}{:>9}{:>9}{:>10}{:>8}\n";
-  text += fmt::format(kLine, "", "snapped", "float", "cracks:", "double", "at T-", "");
+  text += fmt::format(kLine, "", "snapped", "source", "cracks:", "double", "at T-", "");
   text += fmt::format(kLine, "method", "reference", "reference", "gaps", "hits", "junctions", "folds");
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto errors = [&](lab::CoverageScore CoverageScores::*truth) {
@@ -163,7 +164,7 @@ std::string coverage_table(const FamilyTable& t) {
     const auto cracks = [&](auto count) { return t.sum(i, &CoverageScores::cracks, count); };
     using C = CrackCounts;
     const auto folds = t.folds(i);
-    text += fmt::format(kLine, t.name(i), errors(&CoverageScores::snapped), errors(&CoverageScores::floats),
+    text += fmt::format(kLine, t.name(i), errors(&CoverageScores::snapped), errors(&CoverageScores::source),
                         cracks(&C::gaps), cracks(&C::double_hits), cracks(&C::t_junctions),
                         folds ? std::to_string(*folds) : "-");
   }
@@ -174,7 +175,7 @@ std::string visibility_table(const FamilyTable& t) {
   using S = lab::VisibilityScores;
   using One = lab::VisibilityScore;
   std::string text = t.title("wrong triangles per 10^6 pixels", "pixels");
-  text += fmt::format("{:<17}{:>25}{:>19}\n", "", "snapped reference", "float reference");
+  text += fmt::format("{:<17}{:>25}{:>19}\n", "", "snapped reference", "source reference");
   constexpr const char* kLine = "{:<17}{:>10}{:>7}{:>8}{:>11}{:>8}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", kMostWrongOn,
                       last_width(t));
@@ -185,7 +186,7 @@ std::string visibility_table(const FamilyTable& t) {
     const auto ulp = [&](One S::*truth) { return digits(t.most(i, truth, &One::max_ulp)); };
     text +=
         fmt::format(kLine, t.name(i), wrong(&S::snapped), t.sum(i, &S::snapped, &One::out_of_range),
-                    ulp(&S::snapped), wrong(&S::floats), ulp(&S::floats), t.most_wrong_on(i), last_width(t));
+                    ulp(&S::snapped), wrong(&S::source), ulp(&S::source), t.most_wrong_on(i), last_width(t));
   }
   return text + t.without_dominant() +
          "beyond: pixels whose depth is outside the depth range of their triangle\n";
@@ -195,14 +196,14 @@ std::string facing_table(const FamilyTable& t) {
   using S = lab::FacingScores;
   using One = lab::FacingScore;
   std::string text = t.title("misjudged per 10^6 faces that cover a sample", "faces");
-  text += fmt::format("{:<20}{:>20}{:>20}\n", "", "snapped reference", "float reference");
+  text += fmt::format("{:<20}{:>20}{:>20}\n", "", "snapped reference", "source reference");
   constexpr const char* kLine = "{:<20}{:>13}{:>7}{:>13}{:>7}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", kMostWrongOn, last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto wrong = [&](One S::*truth) { return t.sum(i, truth, &One::misclassified); };
     const auto share = [&](One S::*truth) { return rate(wrong(truth), t.sum(i, truth, &One::faces)); };
-    text += fmt::format(kLine, t.name(i), share(&S::snapped), wrong(&S::snapped), share(&S::floats),
-                        wrong(&S::floats), t.most_wrong_on(i), last_width(t));
+    text += fmt::format(kLine, t.name(i), share(&S::snapped), wrong(&S::snapped), share(&S::source),
+                        wrong(&S::source), t.most_wrong_on(i), last_width(t));
   }
   return text + t.without_dominant();
 }
@@ -222,6 +223,22 @@ std::string clipping_table(const FamilyTable& t) {
   }
   return text + t.without_dominant() +
          "tri: wrong visible triangle; hair: right within 1/64 px of the sample\n";
+}
+
+std::string projection_table(const FamilyTable& t) {
+  using S = lab::ProjectionScore;
+  std::string text = t.title("wrong samples per 10^6 edge crossings", "crossings");
+  constexpr const char* kLine = "{:<15}{:>10}{:>13}{:>15}{:>7}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "by rounding", "by projection", "folds", kMostWrongOn,
+                      last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const auto part = [&](auto count) { return rate(t.sum(i, count), t.trials()); };
+    text += fmt::format(kLine, t.name(i), part(&S::wrong), part(&S::by_rounding), part(&S::by_projection),
+                        t.sum(i, &S::folds), t.most_wrong_on(i), last_width(t));
+  }
+  return text + t.without_dominant() +
+         "by rounding: of exact positions, rounded exactly to as many bits; by projection:\n"
+         "samples that differ from those\n";
 }
 
 // Cracks; the last column sums all errors against the snapped reference.
@@ -256,7 +273,7 @@ std::string motion_table(const std::vector<MotionResult>& motions) {
 
 std::string accuracy_tables(const AccuracyReport& report) {
   constexpr std::string (*kTables[])(const FamilyTable&) = {coverage_table, visibility_table, facing_table,
-                                                            clipping_table};
+                                                            clipping_table, projection_table};
   std::string text;
   for (const Family family : lab::kFamilies)
     for (const bool smallest : {false, true})

@@ -19,7 +19,7 @@ namespace {
 struct StabilityOptions {
   std::vector<std::string> sweeps;
   std::string json;
-  int threads = 2;
+  int threads = 2, subpixel_bits = 8;
   bool quick = false, list = false;
 };
 
@@ -45,10 +45,13 @@ int stability_command(const StabilityOptions& o) {
   const TimeLeft left;
   std::vector<lab::SweepResult> results;
   for (const lab::Sweep* sweep : sweeps) {
-    results.push_back(lab::run_sweep(*sweep, o.quick, o.threads, [&] {
-      done += sweep->cost / static_cast<double>(sweep->positions.size());
-      progress.show(done / all, left.label(done / all, sweep->name));
-    }));
+    results.push_back(lab::run_sweep(
+        *sweep, o.quick, o.threads,
+        [&] {
+          done += sweep->cost / static_cast<double>(sweep->positions.size());
+          progress.show(done / all, left.label(done / all, sweep->name));
+        },
+        o.subpixel_bits));
     if (json.on_stdout()) continue;
     progress.erase();
     print(stability_table(results.back()) + (sweep == sweeps.back() ? "" : "\n"));
@@ -81,6 +84,8 @@ Action add_stability(CLI::App& command) {
   const auto o = std::make_shared<StabilityOptions>();
   command.add_option("SWEEP", o->sweeps, "Sweeps from --list (all)");
   command.add_flag("--quick", o->quick, "Fewer trials per value");
+  add_integer(command, "--subpixel-bits", o->subpixel_bits, kMinSubpixelBits, kMaxSubpixelBits,
+              "Of positions that our backends get in coverage sweeps (8)");
   command.add_flag("--list", o->list, "List all sweeps");
   add_text(command, "--json", "FILE", o->json,
            "Also write all results as JSON; - for stdout, instead of the tables");

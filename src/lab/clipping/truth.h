@@ -1,38 +1,20 @@
-// The exact picture of a scene at any point of the screen, from its vertices, instances and camera: it shares
-// no stage with the front end, and clips nothing.
+// The exact picture of a scene at any point of the screen.
 #pragma once
 
-#include <gmpxx.h>
-
-#include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "lab/clipping/clipping.h"
-#include "lab/truth/ball_arithmetic.h"
+#include "lab/projection/truth.h"
 
 namespace edgewise::lab {
 
-struct Box {
-  double x0, y0, x1, y1;  // px
-};
-
-// A triangle's homogeneous edge functions in the arithmetic of T: Ball, whose sign 0 means "undecided", or
-// rationals.
-template <typename T>
-class Homogeneous;
-
-// Finds the visible triangle at a point of the screen, and its depth. All signs are exact: balls decide most
-// of them, rationals the others. The constructor bins the triangles into tiles, by the same edge functions.
+// Finds the visible triangle at a point of the screen, and its depth. The constructor bins the triangles into
+// tiles.
 class ClippingOracle {
  public:
-  // The scene must outlive the oracle. A triangle with a vertex that is not finite draws nothing. Triangles
-  // are numbered in submission order. The camera's rotation and the instances' matrices are those that
-  // doubles hold; from there on, all is exact.
   ClippingOracle(const Scene& scene, Size size, Cull cull);
-  ~ClippingOracle();
 
   // The visible triangle or kNoTriangle. Points must lie in the image, less than half a pixel from a sample.
   std::uint32_t visible_at(double x_px, double y_px) const;
@@ -40,20 +22,17 @@ class ClippingOracle {
   // which often answers without testing all triangles.
   bool shows(std::uint32_t triangle, std::uint32_t other, double x_px, double y_px) const;
   // Whether the triangle covers the point between near and far, occluded or not.
-  bool covers(std::uint32_t triangle, double x_px, double y_px) const;
-  double depth01(std::uint32_t triangle, double x_px, double y_px) const;
+  bool covers(std::uint32_t triangle, double x_px, double y_px) const {
+    return truth_.covers(triangle, x_px, y_px);
+  }
+  double depth01(std::uint32_t triangle, double x_px, double y_px) const {
+    return truth_.depth01(triangle, x_px, y_px);
+  }
 
  private:
-  bool nearer(std::uint32_t a, std::uint32_t b, double x_px, double y_px) const;
   void sort_into_tiles(int tile_x, int tile_y, int tiles, std::span<const std::uint32_t> candidates);
 
-  Homogeneous<mpq_class> exact(std::uint32_t triangle) const;
-
-  const Scene& scene_;
-  Size size_;
-  std::vector<std::pair<std::size_t, std::size_t>> sources_;  // by triangle: instance, triangle of its mesh
-  std::vector<Homogeneous<Ball>> estimates_;
-  std::vector<std::int8_t> facing_;  // exact; 1 front, -1 back, 0 edge-on or culled
+  SceneTruth truth_;
   int tiles_x_;
   std::vector<std::vector<std::uint32_t>> in_tile_;
 };

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "core/grid.h"
 #include "core/nearest_name.h"
@@ -37,8 +38,9 @@ void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Win
 }
 
 // Rule 2; the current rounding mode is half to even.
-std::int32_t to_q15(float px) {
-  return static_cast<std::int32_t>(std::nearbyint(double{px} * Coarse::kSub)) * (1 << Coarse::kSpareBits);
+std::int32_t to_q15(float px, int bits) {
+  return static_cast<std::int32_t>(std::nearbyint(double{px} * (1 << bits))) *
+         (1 << (contract::kFineBits - bits));
 }
 
 CoverageMethod make_from(const BackendInfo& backend, bool fills) {
@@ -54,6 +56,7 @@ CoverageMethod make_from(const BackendInfo& backend, bool fills) {
       [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
         backend_runs(*backend.make(), input.snapped, window, runs);
       },
+      true,
       true,
       true,
       fills,
@@ -137,12 +140,12 @@ void append_runs(std::span<const std::uint32_t> row, int y, int x0, std::vector<
   }
 }
 
-std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles) {
+std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles, int subpixel_bits) {
   std::vector<ScreenTriangle> result(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      result[i].x_q15[k] = to_q15(triangles[i].at.x_px[k]);
-      result[i].y_q15[k] = to_q15(triangles[i].at.y_px[k]);
+      result[i].x_q15[k] = to_q15(triangles[i].at.x_px[k], subpixel_bits);
+      result[i].y_q15[k] = to_q15(triangles[i].at.y_px[k], subpixel_bits);
       result[i].z[k] = quantize_depth(triangles[i].at.z01[k]);
     }
     result[i].payload = triangles[i].payload;
@@ -160,25 +163,29 @@ std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
   return result;
 }
 
-CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options) {
-  if (const auto rounded = in_floats(drawable)) return coverage_scene(*rounded, options);
-  const Cull cull = options.cull;
-  options.cull = Cull::none;
+void CoverageScene::keep_if(const std::function<bool(std::size_t)>& keep) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < floats.size(); ++i) {
+    if (!keep(i)) continue;
+    floats[kept] = floats[i];
+    snapped[kept++] = snapped[i];
+  }
+  floats.resize(kept);
+  snapped.resize(kept);
+}
+
+CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions options) {
+  if (const auto rounded = in_floats(drawable)) return coverage_scene_of_floats(*rounded, options);
+  const Cull cull = std::exchange(options.cull, Cull::none);
   options.keep_unsnapped = true;
   Frontend frontend;
   const auto screen = frontend.run(drawable, options);
   CoverageScene scene{{options.width, options.height},
                       unsnapped(screen, frontend.unsnapped()),
-                      {screen.begin(), screen.end()}};
-  if (cull == Cull::none) return scene;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < screen.size(); ++i) {
-    if (!keeps(cull, FloatTruth(scene.floats[i].at).facing())) continue;
-    scene.floats[kept] = scene.floats[i];
-    scene.snapped[kept++] = scene.snapped[i];
-  }
-  scene.floats.resize(kept);
-  scene.snapped.resize(kept);
+                      {screen.begin(), screen.end()},
+                      options.subpixel_bits};
+  if (cull != Cull::none)
+    scene.keep_if([&](std::size_t i) { return keeps(cull, FloatTruth(scene.floats[i].at).facing()); });
   return scene;
 }
 

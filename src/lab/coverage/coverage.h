@@ -20,7 +20,7 @@
 namespace edgewise::lab {
 
 // One picture's triangles before and after snapping: unsnapped for the methods of this family, which snap
-// them if they need to, and snapped for the backends. Coordinates are finite and below 2^22 px; snapped ones,
+// them if they need to, and snapped for the backends. Coordinates are finite and below 2^16 px; snapped ones,
 // relative to the window's corner, lie in the guard band (rule 3).
 struct CoverageInput {
   std::span<const FloatTriangle> floats;
@@ -81,6 +81,7 @@ struct CoverageMethod {
   std::function<void(const CoverageInput&, Window, std::vector<Run>&)> runs;
   bool threaded = false;        // draw uses the execution's threads
   bool contract_depth = false;  // draw writes the frame's depths, in units of rule 6
+  bool backend = false;         // of the library: takes snapped positions of any subpixel bits
   bool fills = true;            // false for backends that do not fill triangles; these are not scored
   // Whether draw uses the execution's SIMD target. If not, `simd_note` says why a SIMD form is missing.
   bool simd = false;
@@ -107,26 +108,42 @@ const CoverageMethod& find_drawing_method(std::string_view name);
 void append_runs(std::span<const std::uint32_t> row, int y, int x0, std::vector<Run>& runs);
 
 // Snaps as the front end does (rule 2). Does not clamp to the guard band, which is relative to a window's
-// corner; |x|, |y| < 2^22 px.
-std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles);
+// corner; |x|, |y| < 2^16 px.
+std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles, int subpixel_bits = 8);
 // Joins the two lists of a front end. Throws std::invalid_argument if they differ in size: it must run with
 // keep_unsnapped.
 std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
                                      std::span<const UnsnappedTriangle> at);
+
+class SceneTruth;  // lab/projection/truth.h
 
 // A picture's triangles as coverage methods take them.
 struct CoverageScene {
   Size size;
   std::vector<FloatTriangle> floats;
   std::vector<ScreenTriangle> snapped;
+  int subpixel_bits = 8;  // of these
+  // Of a scene with a camera, from whose vertices a front end made these triangles: its truth, and of each of
+  // them the triangle in it. Otherwise null and empty: the floats themselves are the source.
+  std::shared_ptr<const SceneTruth> truth = nullptr;
+  std::vector<std::uint32_t> sources = {};
 
   CoverageInput input() const { return {floats, snapped}; }
   Window window() const { return {size.width, size.height}; }
+  // The bits to which a method rounds positions on this scene: see CoveragePromise::snap_bits.
+  std::optional<int> snap_bits(const CoverageMethod& method) const {
+    return method.backend ? subpixel_bits : method.promise.snap_bits;
+  }
+  // Drops the triangles for whose index keep() is false. Before there are `sources`.
+  void keep_if(const std::function<bool(std::size_t)>& keep);
 };
 
-// The front end's triangles before and after snapping. A stream in double is rounded to floats. Culls by the
-// exact sign of a triangle's area before snapping, so that all methods get the same triangles.
+// The front end's triangles before and after snapping, and the truth that they are judged by. A stream in
+// double is rounded to floats. Culls by the exact facing of their sources, so that all methods get the same
+// triangles. A scene's payloads become ids.
 CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options);
+// The same with the front end's floats as the source.
+CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions options);
 
 // Small scenes on which coverage methods fail, as unsnapped screen triangles.
 struct CoverageCase {

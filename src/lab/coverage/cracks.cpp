@@ -21,10 +21,12 @@ Corner corner(const UnsnappedTriangle& t, int i) {
 }
 
 // Whether two corners are copies of one vertex.
+bool same(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::abs(a.x - b.x) <= kOnEdge_px && std::abs(a.y - b.y) <= kOnEdge_px &&
+         std::abs(a.z - b.z) <= kSameDepth;
+}
 bool same(const Corner& a, const Corner& b) {
-  return std::abs(double{a.x} - double{b.x}) <= kOnEdge_px &&
-         std::abs(double{a.y} - double{b.y}) <= kOnEdge_px &&
-         std::abs(double{a.z} - double{b.z}) <= kSameDepth;
+  return same(glm::dvec3(a.x, a.y, a.z), glm::dvec3(b.x, b.y, b.z));
 }
 
 // An edge of a triangle, in the direction that is clockwise on the screen.
@@ -111,25 +113,6 @@ struct Pair {
   auto operator<=>(const Pair&) const = default;
 };
 
-// See Cracks::folds. Coverage before and after rounding.
-std::vector<Sample> folds_of(const Surface& surface, std::span<const Run> before,
-                             std::span<const Run> after) {
-  std::vector<Pair> moved;
-  for_each_difference(before, after, [&](const Run& run, bool missing) {
-    for (int x = run.x0; x < run.x1 && !missing; ++x) moved.push_back({run.y, x, run.triangle});
-  });
-  std::sort(moved.begin(), moved.end());
-  std::vector<Sample> folds;
-  for (const Run& run : after)
-    for (auto at = std::lower_bound(moved.begin(), moved.end(), Pair{run.y, run.x0, 0});
-         at != moved.end() && at->y == run.y && at->x < run.x1; ++at)
-      if (at->triangle != run.triangle && surface.side_by_side(at->triangle, run.triangle))
-        folds.push_back({at->y, at->x});
-  std::sort(folds.begin(), folds.end());
-  folds.erase(std::unique(folds.begin(), folds.end()), folds.end());
-  return folds;
-}
-
 // Compares what is drawn with a truth, at the edges where triangles meet. across(triangle, edge, visit) calls
 // visit(other) for each triangle on the other side of an edge until one returns true, and returns whether one
 // did.
@@ -197,6 +180,24 @@ class Seams {
 
 }  // namespace
 
+std::vector<Sample> folds_of(const Surface& surface, std::span<const Run> before,
+                             std::span<const Run> after) {
+  std::vector<Pair> moved;
+  for_each_difference(before, after, [&](const Run& run, bool missing) {
+    for (int x = run.x0; x < run.x1 && !missing; ++x) moved.push_back({run.y, x, run.triangle});
+  });
+  std::sort(moved.begin(), moved.end());
+  std::vector<Sample> folds;
+  for (const Run& run : after)
+    for (auto at = std::lower_bound(moved.begin(), moved.end(), Pair{run.y, run.x0, 0});
+         at != moved.end() && at->y == run.y && at->x < run.x1; ++at)
+      if (at->triangle != run.triangle && surface.side_by_side(at->triangle, run.triangle))
+        folds.push_back({at->y, at->x});
+  std::sort(folds.begin(), folds.end());
+  folds.erase(std::unique(folds.begin(), folds.end()), folds.end());
+  return folds;
+}
+
 double rounded_to(double px, int subpixel_bits) {
   return std::ldexp(std::nearbyint(std::ldexp(px, subpixel_bits)), -subpixel_bits);
 }
@@ -214,6 +215,12 @@ bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b) {
     for (int j = 0; j < 3; ++j)
       if (same(corner(a, i), corner(b, j))) return true;
   return false;
+}
+
+bool touch(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) {
+  return std::ranges::any_of(a, [&](const glm::dvec3& corner) {
+    return std::ranges::any_of(b, [&](const glm::dvec3& other) { return same(corner, other); });
+  });
 }
 
 Surface::Surface(std::span<const FloatTriangle> triangles) : triangles_(triangles) {
@@ -360,10 +367,14 @@ bool Surface::side_by_side(std::uint32_t a, std::uint32_t b) const {
 
 std::uint64_t Surface::crossings(Window window) const {
   double sum = 0.0;
+  const auto end = [&](std::uint32_t triangle, int i) {
+    const Corner c = corner(triangles_[triangle].at, i);
+    return glm::dvec2(c.x, c.y);
+  };
   for (std::uint32_t i = 0; i < triangles_.size(); ++i)
     for (int edge = 0; edge < 3; ++edge)
       if (const std::uint32_t other = across(i, edge); other != kNoTriangle && i < other)
-        sum += crossings_of(triangles_[i].at, edge, window);
+        sum += crossings_of(end(i, edge), end(i, edge + 1), window);
   return static_cast<std::uint64_t>(sum);
 }
 

@@ -22,8 +22,9 @@
 
 namespace edgewise::lab {
 
-// Whether two triangles have copies of one vertex.
+// Whether two triangles have copies of one vertex, or two outlines.
 bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b);
+bool touch(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b);
 
 // Which triangles of a picture adjoin. Two triangles share an edge if they lie on opposite sides of it and
 // both have copies of its two vertices. If an edge has more than two triangles, the k-th on one side shares
@@ -91,6 +92,9 @@ struct Cracks {
   std::uint64_t at_shared_edges() const { return gaps.size() + double_hits.size(); }
   std::uint64_t at_t_junctions() const { return t_gaps.size() + t_double_hits.size(); }
 };
+
+// Coverage before and after rounding, both sorted. See Cracks::folds.
+std::vector<Sample> folds_of(const Surface& surface, std::span<const Run> before, std::span<const Run> after);
 
 // Rounds half to even. Rounding a float to a coarser grid gives a float.
 double rounded_to(double px, int subpixel_bits);

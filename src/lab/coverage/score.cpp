@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "lab/projection/truth.h"
+
 namespace edgewise::lab {
 
 namespace {
@@ -53,6 +55,10 @@ double samples_between(double a, double b) {
 
 }  // namespace
 
+CoverageTruth coverage_of(const SourceTruth& source, Window window, int threads) {
+  return truth_from(source.runs(window, threads), window);
+}
+
 CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads) {
   return truth_from(covered_runs(input.snapped, window, threads), window);
 }
@@ -61,10 +67,8 @@ CoverageTruth float_coverage(const CoverageInput& input, Window window, int thre
   return truth_from(covered_runs(input.floats, window, threads), window);
 }
 
-double crossings_of(const UnsnappedTriangle& t, int edge, Window w) {
-  const int end_of_edge = (edge + 1) % 3;
-  const double x = double{t.x_px[edge]}, y = double{t.y_px[edge]}, dx = double{t.x_px[end_of_edge]} - x,
-               dy = double{t.y_px[end_of_edge]} - y;
+double crossings_of(glm::dvec2 from, glm::dvec2 to, Window w) {
+  const double x = from.x, y = from.y, dx = to.x - x, dy = to.y - y;
   // The part inside the window (Liang and Barsky, 1984), as parameters of x + t dx, y + t dy.
   double begin = 0.0, end = 1.0;
   const auto clip = [&](double start, double step, double low, double high) {
@@ -83,11 +87,18 @@ double crossings_of(const UnsnappedTriangle& t, int edge, Window w) {
                   samples_between(y + begin * dy, y + end * dy));
 }
 
-std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window) {
+std::uint64_t edge_crossings(const SourceTruth& source, Window window) {
   double crossings = 0.0;
-  for (const auto& [t, payload] : triangles)
-    for (int i = 0; i < 3; ++i) crossings += crossings_of(t, i, window);
+  for (std::uint32_t i = 0; i < source.size(); ++i) {
+    const auto outline = source.outline(i);
+    for (std::size_t k = 0; k < outline.size(); ++k)
+      crossings += crossings_of(outline[k], outline[(k + 1) % outline.size()], window);
+  }
   return static_cast<std::uint64_t>(crossings);
+}
+
+std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window) {
+  return edge_crossings(FloatSource(triangles), window);
 }
 
 float largest_side_px(std::span<const FloatTriangle> triangles) {
@@ -138,16 +149,17 @@ std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window w) {
   return hits;
 }
 
-ErrorDistance::ErrorDistance(const UnsnappedTriangle& t) {
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const double dx = double{t.x_px[j]} - double{t.x_px[i]}, dy = double{t.y_px[j]} - double{t.y_px[i]};
+ErrorDistance::ErrorDistance(std::span<const glm::dvec3> outline) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  low_x_ = low_y_ = kInfinity, high_x_ = high_y_ = -kInfinity;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const glm::dvec3 &from = outline[i], &to = outline[(i + 1) % outline.size()];
+    const double dx = to.x - from.x, dy = to.y - from.y;
     const double length = std::sqrt(dx * dx + dy * dy), scale = length > 0.0 ? 1.0 / length : 0.0;
-    lines_[i] = {double{t.x_px[i]}, double{t.y_px[i]}, -dy * scale, dx * scale};
+    lines_.push_back({from.x, from.y, -dy * scale, dx * scale});
+    low_x_ = std::min(low_x_, from.x), low_y_ = std::min(low_y_, from.y);
+    high_x_ = std::max(high_x_, from.x), high_y_ = std::max(high_y_, from.y);
   }
-  const auto [low_x, high_x] = std::minmax({t.x_px[0], t.x_px[1], t.x_px[2]});
-  const auto [low_y, high_y] = std::minmax({t.y_px[0], t.y_px[1], t.y_px[2]});
-  low_x_ = double{low_x}, low_y_ = double{low_y}, high_x_ = double{high_x}, high_y_ = double{high_y};
 }
 
 double ErrorDistance::at(int px, int py) const {
@@ -163,6 +175,15 @@ DrawnRuns::DrawnRuns(std::vector<Run> drawn, Window window) : out_of_bounds(cut(
   runs = joined(std::move(drawn));
 }
 
+DrawnRuns DrawnRuns::of_sources(std::span<const std::uint32_t> sources) const {
+  DrawnRuns drawn = *this;
+  if (sources.empty()) return drawn;
+  for (Run& run : drawn.runs) run.triangle = sources[run.triangle];
+  std::sort(drawn.runs.begin(), drawn.runs.end());  // the pieces of a clipped triangle have one source
+  drawn.runs = joined(std::move(drawn.runs));
+  return drawn;
+}
+
 DrawnRuns::DrawnRuns(const CoverageMethod& method, const CoverageInput& input, Window window)
     : DrawnRuns(
           [&] {
@@ -172,19 +193,31 @@ DrawnRuns::DrawnRuns(const CoverageMethod& method, const CoverageInput& input, W
           }(),
           window) {}
 
-CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
-                             std::span<const FloatTriangle> triangles) {
+CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const SourceTruth& source) {
   CoverageScore score{
-      .triangles = triangles.size(), .covered = truth.covered, .out_of_bounds = drawn.out_of_bounds};
+      .triangles = source.size(), .covered = truth.covered, .out_of_bounds = drawn.out_of_bounds};
   for_each_difference(truth.runs, drawn.runs, [&](const Run& run, bool missing) {
     (missing ? score.missing : score.extra) += length(run);
-    const ErrorDistance distance(triangles[run.triangle].at);
+    const ErrorDistance distance(source.outline(run.triangle));
     for (int x = run.x0; x < run.x1; ++x) {
       score.worst_px = std::max(score.worst_px, distance.at(x, run.y));
       if (!missing) score.out_of_box += distance.off_box(x, run.y);
     }
   });
   return score;
+}
+
+CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
+                             std::span<const FloatTriangle> triangles) {
+  return score_coverage(truth, drawn, FloatSource(triangles));
+}
+
+SourceJudge::SourceJudge(const CoverageScene& scene, int threads)
+    : scene_(scene),
+      by_floats_(scene.floats),
+      source_(scene.truth ? static_cast<const SourceTruth&>(*scene.truth) : by_floats_),
+      floats_(float_coverage(scene.input(), scene.window(), threads)) {
+  if (scene.truth) exact_ = coverage_of(source_, scene.window(), threads);
 }
 
 }  // namespace edgewise::lab

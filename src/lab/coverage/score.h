@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,15 +19,17 @@ struct CoverageTruth {
   std::vector<Run> runs;      // sorted
   std::uint64_t covered = 0;  // their pixels
 };
+CoverageTruth coverage_of(const SourceTruth& source, Window window, int threads);
 CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads);
 CoverageTruth float_coverage(const CoverageInput& input, Window window, int threads);
 
 // The sum over all edges of all triangles: the larger of the numbers of sample rows and sample columns that
 // the edge crosses inside the window. Error rates are per 10^6 crossings, since a long edge has more chances
 // to be wrong.
+std::uint64_t edge_crossings(const SourceTruth& source, Window window);
 std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window);
-// Of one edge.
-double crossings_of(const UnsnappedTriangle& triangle, int edge, Window window);
+// Of one edge, in px.
+double crossings_of(glm::dvec2 from, glm::dvec2 to, Window window);
 // The largest side of the triangles' bounding boxes, for comparison with CoveragePromise::max_side_px.
 float largest_side_px(std::span<const FloatTriangle> triangles);
 
@@ -34,6 +38,8 @@ struct DrawnRuns {
   // `drawn` may be in any order; a pixel drawn twice for one triangle is one pair.
   DrawnRuns(std::vector<Run> drawn, Window window);
   DrawnRuns(const CoverageMethod& method, const CoverageInput& input, Window window);
+  // With CoverageScene::sources in place of the scene's triangles; as they are if there are none.
+  DrawnRuns of_sources(std::span<const std::uint32_t> sources) const;
 
   std::vector<Run> runs;            // sorted, each (triangle, pixel) pair once
   std::uint64_t out_of_bounds = 0;  // pixels drawn outside the window
@@ -49,8 +55,30 @@ struct CoverageScore {
   std::uint64_t errors() const { return missing + extra; }
   bool operator==(const CoverageScore&) const = default;
 };
+CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const SourceTruth& source);
 CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
                              std::span<const FloatTriangle> triangles);
+
+// Judges coverage methods on a scene from its source on. The scene must outlive it.
+class SourceJudge {
+ public:
+  SourceJudge(const CoverageScene& scene, int threads);
+  SourceJudge(const SourceJudge&) = delete;
+  const SourceTruth& source() const { return source_; }
+  const CoverageTruth& truth() const { return exact_ ? *exact_ : floats_; }
+  const CoverageTruth& floats() const { return floats_; }  // of the positions that the methods get
+  DrawnRuns of_sources(const DrawnRuns& drawn) const { return drawn.of_sources(scene_.sources); }
+  CoverageScore score(const DrawnRuns& drawn) const {
+    return score_coverage(truth(), of_sources(drawn), source_);
+  }
+
+ private:
+  const CoverageScene& scene_;
+  FloatSource by_floats_;
+  const SourceTruth& source_;
+  CoverageTruth floats_;
+  std::optional<CoverageTruth> exact_;
+};
 
 constexpr double per_million(std::uint64_t count, std::uint64_t crossings) {
   return crossings == 0 ? 0.0 : 1e6 * static_cast<double>(count) / static_cast<double>(crossings);
@@ -64,11 +92,11 @@ void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
 // Hits at each pixel of the window, row by row. Pixels outside the window are ignored.
 std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window window);
 
-// How far a wrong sample lies from the triangle's edges and bounding box. An edge without length counts as
-// distance 0.
+// How far a wrong sample lies from the edges and the bounding box of a triangle's outline. An edge without
+// length counts as distance 0.
 class ErrorDistance {
  public:
-  explicit ErrorDistance(const UnsnappedTriangle& triangle);
+  explicit ErrorDistance(std::span<const glm::dvec3> outline);
   // The distance from the nearest line through an edge, or from the bounding box if that is larger; accurate
   // to 1e-11 px for coordinates below 4096 px.
   double at(int px, int py) const;
@@ -80,7 +108,8 @@ class ErrorDistance {
  private:
   struct Line {
     double x, y, normal_x, normal_y;
-  } lines_[3];
+  };
+  std::vector<Line> lines_;
   double low_x_, low_y_, high_x_, high_y_;
 };
 

@@ -11,10 +11,10 @@
 namespace edgewise::lab {
 
 struct VisibleTriangleScore {
-  // Pixels that show another triangle than the truth does, or only one of both shows none; against each
-  // truth.
-  std::uint64_t wrong_snapped = 0, wrong_floats = 0;
-  // Pixels of wrong_floats where something shows through: neither triangle of the two is a neighbour of the
+  // Pixels that show another triangle than the truth does, or only one of both shows none; against the
+  // snapped positions, and against the source (CoverageScene::truth).
+  std::uint64_t wrong_snapped = 0, wrong_source = 0;
+  // Pixels of wrong_source where something shows through: neither triangle of the two is a neighbour of the
   // other, which shares a vertex with it (see touch()), or only one of both is none.
   std::uint64_t wrong_surface = 0;
   // For exact methods that write contract depths: wrong_snapped pixels that the depth error of rule 6 does
@@ -22,7 +22,7 @@ struct VisibleTriangleScore {
   // errors together.
   std::uint64_t unexplained = 0;
   // Depth errors at pixels that show the right triangle. For methods that write contract depths: against the
-  // snapped truth, in units of rule 6 (2^-31 of the range). For all others: against the float truth, in float
+  // snapped truth, in units of rule 6 (2^-31 of the range). For all others: against the source, in float
   // ulps at the exact depth, or at 2^-8 if that is nearer to 0.
   double max_ulp = 0.0, rms_ulp = 0.0;
 
@@ -32,16 +32,17 @@ struct VisibleTriangleScore {
 // Holds a picture's exact visible triangles by both truths, and scores methods against them.
 class VisibleTriangleJudge {
  public:
-  VisibleTriangleJudge(const CoverageInput& input, Size size, int threads);
+  VisibleTriangleJudge(CoverageScene scene, int threads);
   VisibleTriangleScore score(const CoverageMethod& method) const;
 
  private:
   std::uint64_t unexplained(const Canvas& canvas) const;
 
-  Size size_;
-  std::vector<FloatTriangle> floats_;  // payloads number the triangles from 1
-  std::vector<ScreenTriangle> snapped_;
-  VisibleTriangles by_grid_, by_floats_;
+  // The triangle of the source that triangle `i` of the scene comes from.
+  std::uint32_t source(std::uint32_t i) const { return scene_.truth ? scene_.sources[i] : i; }
+
+  CoverageScene scene_;  // payloads number the triangles from 1
+  VisibleTriangles by_grid_, by_source_;
 };
 
 }  // namespace edgewise::lab

@@ -124,7 +124,7 @@ void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, glm::dvec3 obj
   double least = area * glm::length(sight);
   for (std::size_t i = 0; i < v.size(); ++i) {
     const double height = glm::dot(normal, view.perspective ? glm::dvec3(v[i]) - eye : forward);
-    facts.normal_differs |= !(facts.floats.front ? height < 0 : height > 0);
+    facts.normal_differs |= !(facts.source.front ? height < 0 : height > 0);
     if (i < 3) least = std::min(least, std::abs(height));
   }
   facts.sine = least / (area * glm::length(sight));
@@ -176,7 +176,7 @@ FaceFacts FacingTruth::facts(const Face& face) const {
   }
   FaceFacts facts{};
   facts.snapped = side_of<SnappedPoint>(snapped, view.size);
-  facts.floats = side_of<Point>(floats, view.size);
+  facts.source = side_of<Point>(floats, view.size);
   measure_rays(facts, vertices, object_, view);
   measure_screen(facts, vertices, floats, view);
   return facts;
@@ -214,7 +214,7 @@ FacingScores score(const FacingMethod& method, const FacingScene& scene, std::sp
         ++scores.broken;
     };
     add(scores.snapped, facts[i].snapped, !method.info.exact);
-    add(scores.floats, facts[i].floats, method.may_err(facts[i], scene.view));
+    add(scores.source, facts[i].source, method.may_err(facts[i], scene.view));
   }
   return scores;
 }

@@ -1,5 +1,5 @@
 // Facing methods: the tests by which engines drop back faces, scored against the exact sign of the projected
-// area. There are two truths. The float truth projects the given positions in rationals. The snapped truth
+// area. There are two truths. That of the source projects the given positions in rationals. The snapped truth
 // takes the positions that a rasterizer draws, projected in float and snapped, and is exact from there on.
 #pragma once
 
@@ -66,7 +66,7 @@ struct FaceSide {
 
 // Exact orientations of a face, and measures of how near it is to edge-on, rounded to double.
 struct FaceFacts {
-  FaceSide snapped, floats;
+  FaceSide snapped, source;
   // All before snapping:
   bool normal_differs;  // the polygon is bent: by its normal, a vertex is seen from another side than the
                         // whole
@@ -114,9 +114,9 @@ struct FacingScore {
   std::uint64_t misled = 0;
 };
 struct FacingScores {
-  FacingScore snapped, floats;
+  FacingScore snapped, source;
   std::uint64_t disagreements = 0;  // with the first method (ours), of all faces
-  // Broken promises, without misled ones: misclassified against the float truth though may_err is false, or
+  // Broken promises, without misled ones: misclassified against the source though may_err is false, or
   // by an exact method against the snapped truth.
   std::uint64_t broken = 0;
 };

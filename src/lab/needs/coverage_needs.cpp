@@ -29,24 +29,25 @@ constexpr auto kRecord = []<int... kBits>(std::integer_sequence<int, kBits...>) 
 
 constexpr const char* kFloatMethods[] = {"float_lt", "float_le", "float_top_left", "double_top_left"};
 
-std::vector<std::uint32_t> triangles_at(std::span<const Run> runs, int x, int y,
-                                        std::span<const FloatTriangle> triangles) {
+// The ids of the triangles that cover a pixel.
+std::vector<std::uint32_t> triangles_at(std::span<const Run> runs, int x, int y, const CoverageScene& scene) {
   std::vector<std::uint32_t> ids;
   for (const Run& run : runs)
-    if (run.y == y && run.x0 <= x && x < run.x1) ids.push_back(triangles[run.triangle].payload);
+    if (run.y == y && run.x0 <= x && x < run.x1)
+      ids.push_back(scene.truth ? run.triangle : scene.floats[run.triangle].payload);
   return ids;
 }
 
 // Makes the first pixel with one of these marks the witness.
 void add_witness(const MarkedPicture& marked, std::span<const Mark> kinds, const StudiedFrame& frame,
-                 const CoverageScene& scene, const CoverageTruth& truth, std::span<const Run> runs,
+                 const CoverageScene& scene, std::span<const Run> truth, std::span<const Run> runs,
                  std::uint64_t wrong_px, Answer& answer) {
   const auto at = std::find_first_of(marked.marks.begin(), marked.marks.end(), kinds.begin(), kinds.end());
   if (at == marked.marks.end()) return;
   const int i = static_cast<int>(at - marked.marks.begin()), x = i % scene.size.width,
             y = i / scene.size.width;
-  answer.witness = Witness{frame.index, x, y, triangles_at(truth.runs, x, y, scene.floats),
-                           triangles_at(runs, x, y, scene.floats)};
+  answer.witness =
+      Witness{frame.index, x, y, triangles_at(truth, x, y, scene), triangles_at(runs, x, y, scene)};
   answer.wrong_px = wrong_px;
   if (frame.keep_pictures) answer.picture = marked;
 }
@@ -65,9 +66,9 @@ void CoverageNeeds::add(const StudiedFrame& frame, const CoverageScene& scene, i
   constexpr Mark kCracks[] = {Mark::gap, Mark::twice};
   constexpr Mark kAny[] = {Mark::gap, Mark::twice, Mark::missing, Mark::extra};
   const Window window = scene.window();
-  const CoverageTruth truth = float_coverage(scene.input(), window, threads);
-  crossings_ += edge_crossings(scene.floats, window);
-  const CrackJudge judge(scene.floats, truth);
+  const SourceJudge source(scene, threads);
+  crossings_ += edge_crossings(source.source(), window);
+  const CrackJudge judge(scene.floats, source.floats());
   shared_crossings_ += judge.surface().crossings(window);
   const int fixed = static_cast<int>(bits_.size());
   parallel_for(threads, fixed + static_cast<int>(floats_.size()), [&](int i) {
@@ -79,17 +80,20 @@ void CoverageNeeds::add(const StudiedFrame& frame, const CoverageScene& scene, i
     else
       find_drawing_method(tried.cracks.name).runs(scene.input(), window, runs);
     const DrawnRuns drawn(std::move(runs), window);
-    const CoverageScore score = score_coverage(truth, drawn, scene.floats);
+    const CoverageScore score = source.score(drawn);
     const Cracks cracks = judge.find(drawn, i < fixed ? std::optional(i) : std::nullopt);
     tried.wrong += score.errors();
     const std::uint64_t cracked = cracks.at_shared_edges() + cracks.at_t_junctions() + cracks.folds.size();
     const bool new_crack = cracked != 0 && tried.cracks.enough(),
                new_error = score.errors() != 0 && tried.displaced.enough();
     if (!new_crack && !new_error) return;
-    const MarkedPicture marked = mark_coverage(truth, drawn, cracks, scene.floats);
-    if (new_crack) add_witness(marked, kCracks, frame, scene, truth, drawn.runs, cracked, tried.cracks);
+    const DrawnRuns of_sources = source.of_sources(drawn);
+    const MarkedPicture marked = mark_coverage(source.truth(), of_sources, cracks, source.source());
+    if (new_crack)
+      add_witness(marked, kCracks, frame, scene, source.truth().runs, of_sources.runs, cracked, tried.cracks);
     if (new_error)
-      add_witness(marked, kAny, frame, scene, truth, drawn.runs, score.errors(), tried.displaced);
+      add_witness(marked, kAny, frame, scene, source.truth().runs, of_sources.runs, score.errors(),
+                  tried.displaced);
   });
 }
 

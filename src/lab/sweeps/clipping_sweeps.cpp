@@ -23,7 +23,7 @@ Measured measure_scene(const ClippingScene& scene) {
   return result;
 }
 
-Measured measure_near_plane(double near_z, bool) {
+Measured measure_near_plane(double near_z, bool, int) {
   ClippingScene scene = floor_through_eye(static_cast<float>(near_z));
   scene.size = kSize;
   return measure_scene(scene);
@@ -31,7 +31,7 @@ Measured measure_near_plane(double near_z, bool) {
 
 // Triangles as a floor and a wall beside the camera, each with one vertex at distance w from the camera's
 // plane.
-Measured measure_vertex_w(double w, bool) {
+Measured measure_vertex_w(double w, bool, int) {
   ClippingScene s{{}, kSize};
   Mesh& mesh = s.scene.meshes.emplace_back();
   s.scene.instances.emplace_back();
@@ -71,7 +71,7 @@ std::vector<Sweep> clipping_sweeps() {
            kWrongPixels,
            1,
            decades(0, 8),
-           [](double away, bool) { return measure_scene(floor_far_from_origin(away)); }}};
+           [](double away, bool, int) { return measure_scene(floor_far_from_origin(away)); }}};
 }
 
 }  // namespace edgewise::lab

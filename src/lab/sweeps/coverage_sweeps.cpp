@@ -19,8 +19,8 @@ namespace {
 constexpr YAxis kErrorsPerCrossing{"wrong samples per 10^6 edge crossings", true, 1e6};
 
 // Adds each method's errors in a picture, against the float truth.
-void add_picture(Measured& sums, const std::vector<FloatTriangle>& triangles, Window window) {
-  const auto grid = snapped(triangles);
+void add_picture(Measured& sums, const std::vector<FloatTriangle>& triangles, Window window, int bits) {
+  const auto grid = snapped(triangles, bits);
   const CoverageInput input{triangles, grid};
   const CoverageTruth truth = float_coverage(input, window, 1);
   const std::uint64_t crossings = edge_crossings(triangles, window);
@@ -57,12 +57,12 @@ FloatTriangle flat(const glm::vec2 (&corner)[3]) {
 
 // The far corner of the mesh lies at this distance on both axes.
 template <Grid kGrid>
-Measured measure_distance(double distance, bool quick) {
+Measured measure_distance(double distance, bool quick, int bits) {
   Measured sums(coverage_methods().size());
   constexpr int kSide = 96;
   const int corner = static_cast<int>(distance) - kSide;
   for (std::uint64_t seed = 1; seed <= (quick ? 4 : 64); ++seed)
-    add_picture(sums, moved_mesh(kSide, seed, kGrid, corner, corner), {kSide, kSide, corner, corner});
+    add_picture(sums, moved_mesh(kSide, seed, kGrid, corner, corner), {kSide, kSide, corner, corner}, bits);
   return sums;
 }
 
@@ -102,19 +102,19 @@ struct Strip {
 // Vertical and horizontal strips in pictures that contain all of them, to see errors that accumulate along
 // edges. Diagonal strips, whose products need the most bits, in three bands of rows only, since their boxes
 // are large.
-void add_strips(Measured& sums, double length_px, double width_px, int count, Grid grid) {
+void add_strips(Measured& sums, double length_px, double width_px, int count, Grid grid, int bits) {
   Random random(1);
   for (int i = 0; i < count; ++i) {
     const Strip strip{length_px, width_px, double{random.uniform(0, 24)}, grid};
-    add_picture(sums, strip.triangles(false, random), {strip.width(), strip.height()});
-    add_picture(sums, strip.triangles(true, random), {strip.height(), strip.width()});
+    add_picture(sums, strip.triangles(false, random), {strip.width(), strip.height()}, bits);
+    add_picture(sums, strip.triangles(true, random), {strip.height(), strip.width()}, bits);
     const double side = length_px * std::numbers::sqrt2 / 2;
     const Strip diagonal{side, width_px * std::numbers::sqrt2, side, grid};
     const auto triangles = diagonal.triangles(false, random);
     constexpr int kRows = 16;
     const int below = std::max(diagonal.height() - kRows, 0);
     for (const int band : {0, 1, 2})
-      add_picture(sums, triangles, {diagonal.width(), kRows, 0, below * band / 2});
+      add_picture(sums, triangles, {diagonal.width(), kRows, 0, below * band / 2}, bits);
   }
 }
 
@@ -125,26 +125,26 @@ int strip_count(double length_px, bool quick) {
 
 // Strips 16 px wide with a length up to 4096 px; for higher aspects the width shrinks down to 1/256 px.
 template <Grid kGrid>
-Measured measure_aspect(double aspect, bool quick) {
+Measured measure_aspect(double aspect, bool quick, int bits) {
   constexpr double kWidthPx = 16, kLongestPx = 4096;
   Measured sums(coverage_methods().size());
   const double length = std::min(kWidthPx * aspect, kLongestPx);
-  add_strips(sums, length, std::max(length / aspect, 1.0 / 256), strip_count(length, quick), kGrid);
+  add_strips(sums, length, std::max(length / aspect, 1.0 / 256), strip_count(length, quick), kGrid, bits);
   return sums;
 }
 
 template <Grid kGrid>
-Measured measure_height(double rows, bool quick) {
+Measured measure_height(double rows, bool quick, int bits) {
   constexpr double kWidthPx = 9;
   Measured sums(coverage_methods().size());
-  add_strips(sums, rows, kWidthPx, strip_count(rows, quick), kGrid);
+  add_strips(sums, rows, kWidthPx, strip_count(rows, quick), kGrid, bits);
   return sums;
 }
 
 // Squares of two right triangles at random places. The window is at their lower left corners, where values
 // that accumulate down the rows have drifted most.
 template <Grid kGrid>
-Measured measure_legs(double legs, bool quick) {
+Measured measure_legs(double legs, bool quick, int bits) {
   constexpr int kSide = 24, kBelow = 8;
   const auto leg = static_cast<float>(legs);
   Random random(1);
@@ -157,7 +157,7 @@ Measured measure_legs(double legs, bool quick) {
     triangles.push_back(flat({{b.x, c.y}, c, b}));
   }
   Measured sums(coverage_methods().size());
-  add_picture(sums, triangles, {kSide, kSide, 0, static_cast<int>(legs) + kBelow - kSide});
+  add_picture(sums, triangles, {kSide, kSide, 0, static_cast<int>(legs) + kBelow - kSide}, bits);
   return sums;
 }
 
@@ -174,7 +174,7 @@ Picture picture_of(std::span<const Run> runs, Window window) {
   return picture;
 }
 
-Measured measure_pan(double speed_px, bool quick) {
+Measured measure_pan(double speed_px, bool quick, int bits) {
   const auto methods = coverage_methods();
   constexpr int kMargin = 16;
   constexpr Window window{64, 64, kMargin, kMargin};  // onto the middle of the mesh
@@ -185,7 +185,7 @@ Measured measure_pan(double speed_px, bool quick) {
   for (int frame = 0; frame < frames; ++frame) {
     const double way = frame * speed_px;
     const auto triangles = moved_mesh(window.width + 2 * kMargin, 1, kOffGrid, way, way / 2);
-    const auto grid = snapped(triangles);
+    const auto grid = snapped(triangles, bits);
     truth.add(picture_of(covered_runs(triangles, window, 1), window));
     for (std::size_t i = 0; i < methods.size(); ++i) {
       runs.clear();
@@ -245,7 +245,7 @@ std::vector<Sweep> coverage_sweeps() {
        measure_pan}};
   struct OffGrid {
     std::string_view of, name, summary;
-    Measured (*measure)(double, bool);
+    Measured (*measure)(double, bool, int);
   };
   constexpr OffGrid kOffGrids[] = {
       {"distance", "distance_off_grid",

@@ -18,7 +18,7 @@ Measured measure_scene(const FacingScene& scene) {
   const auto facts = facing_facts(scene);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    const FacingScore s = score(methods[i], scene, facts).floats;
+    const FacingScore s = score(methods[i], scene, facts).source;
     result.methods[i] = {s.misclassified, s.faces};
   }
   return result;
@@ -30,7 +30,7 @@ Measured measure_tilt(double degrees, bool perspective, bool quick) {
 
 // Triangles about 80 px long and `height_px` high on the screen, at random distances and positions, each with
 // a sample inside or on an edge.
-Measured measure_edge_on(double height_px, bool quick) {
+Measured measure_edge_on(double height_px, bool quick, int) {
   FacingScene scene;
   const FacingView& view = scene.view;
   Random random(3);
@@ -67,7 +67,7 @@ std::vector<Sweep> facing_sweeps() {
            kMisjudged,
            10,
            tilts(),
-           [](double degrees, bool quick) { return measure_tilt(degrees, true, quick); }},
+           [](double degrees, bool quick, int) { return measure_tilt(degrees, true, quick); }},
           {"tilt_orthographic",
            Family::facing,
            "the same under an orthographic camera",
@@ -75,7 +75,7 @@ std::vector<Sweep> facing_sweeps() {
            kMisjudged,
            6,
            tilts(),
-           [](double degrees, bool quick) { return measure_tilt(degrees, false, quick); }},
+           [](double degrees, bool quick, int) { return measure_tilt(degrees, false, quick); }},
           {"edge_on",
            Family::facing,
            "triangles that are nearly edge-on and still cover a sample",

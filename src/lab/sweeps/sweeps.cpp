@@ -20,7 +20,8 @@ Tally& Tally::operator+=(const Tally& other) {
 std::span<const Sweep> sweeps() {
   static const std::vector<Sweep> list = [] {
     std::vector<Sweep> all;
-    for (const auto table : {coverage_sweeps, visibility_sweeps, facing_sweeps, clipping_sweeps})
+    for (const auto table :
+         {coverage_sweeps, visibility_sweeps, facing_sweeps, clipping_sweeps, projection_sweeps})
       std::ranges::move(table(), std::back_inserter(all));
     return all;
   }();
@@ -42,12 +43,13 @@ double SweepResult::y(const Tally& tally) const {
   return sweep->y.scale * static_cast<double>(tally.errors) / static_cast<double>(tally.trials);
 }
 
-SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position) {
+SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position,
+                      int subpixel_bits) {
   SweepResult result{&sweep, std::vector<Measured>(sweep.positions.size(), Measured(0))};
   std::mutex mutex;
   parallel_for(threads, static_cast<int>(sweep.positions.size()), [&](int i) {
     const auto position = static_cast<std::size_t>(i);
-    result.at[position] = sweep.measure(sweep.positions[position], quick);
+    result.at[position] = sweep.measure(sweep.positions[position], quick, subpixel_bits);
     const std::lock_guard lock(mutex);
     on_position();
   });

@@ -48,9 +48,9 @@ struct Sweep {
   YAxis y;
   double cost;                    // estimated seconds on one core, for estimates of the remaining time
   std::vector<double> positions;  // positions on the x axis, from easy to hard
-  // Scores all methods at one position on the same scenes, on fewer if `quick`. Deterministic and
-  // thread-safe.
-  Measured (*measure)(double position, bool quick);
+  // Scores all methods at one position on the same scenes, on fewer if `quick`. Coverage backends get
+  // positions of so many subpixel bits. Deterministic and thread-safe.
+  Measured (*measure)(double position, bool quick, int subpixel_bits);
 };
 
 // One table per family, in a file of its name.
@@ -58,6 +58,7 @@ std::vector<Sweep> coverage_sweeps();
 std::vector<Sweep> visibility_sweeps();
 std::vector<Sweep> facing_sweeps();
 std::vector<Sweep> clipping_sweeps();
+std::vector<Sweep> projection_sweeps();
 std::span<const Sweep> sweeps();  // all of them
 // Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const Sweep& find_sweep(std::string_view name);
@@ -75,7 +76,8 @@ struct SweepResult {
 };
 
 // Calls `on_position` after each position, from one thread at a time.
-SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position);
+SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position,
+                      int subpixel_bits = 8);
 
 // Positions for the x axis: 2^from, 2^(from ± 1), … 2^to.
 std::vector<double> powers_of_two(int from, int to);

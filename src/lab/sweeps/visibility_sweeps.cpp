@@ -55,12 +55,12 @@ VisibilityScene ring_of_bars(int bars) {
   return visibility_scene(scene, {256, 192});
 }
 
-Measured measure_cycle(double bars, bool) {
+Measured measure_cycle(double bars, bool, int) {
   return measure_scene(ring_of_bars(static_cast<int>(bars)),
                        [](const VisibilityScore& s) { return s.wrong_triangle; });
 }
 
-Measured measure_sliver_depth(double aspect, bool) {
+Measured measure_sliver_depth(double aspect, bool, int) {
   return measure_scene(slivers(aspect),
                        [](const VisibilityScore& s) { return s.wrong_triangle + s.out_of_range; });
 }
@@ -75,7 +75,7 @@ std::vector<Sweep> visibility_sweeps() {
            kWrongTriangles,
            0.1,
            decades(0, -8),
-           [](double separation, bool) { return measure_separation(10, separation); }},
+           [](double separation, bool, int) { return measure_separation(10, separation); }},
           {"separation_at_100",
            Family::visibility,
            "two tilted planes at z = 100, in either order; near 0.1, far 1000",
@@ -83,7 +83,7 @@ std::vector<Sweep> visibility_sweeps() {
            kWrongTriangles,
            0.1,
            decades(1, -7),
-           [](double separation, bool) { return measure_separation(100, separation); }},
+           [](double separation, bool, int) { return measure_separation(100, separation); }},
           {"cycle",
            Family::visibility,
            "bars, each over the end of the previous one; three or more form a cycle",

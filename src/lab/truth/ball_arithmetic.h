@@ -1,9 +1,8 @@
 // Ball arithmetic (van der Hoeven, "Ball arithmetic", 2010): a double and a bound on its error. Decides most
 // signs and comparisons without rationals.
 //
-// Rounding to nearest leaves |fl(v) - v| <= 2^-53 |fl(v)|, barring underflow. Floats are multiples of 2^-149,
-// so products of up to four of them stay far above the smallest double. Computing a bound rounds a few times;
-// a factor of 1 + 2^-50 covers that.
+// Rounding to nearest leaves |fl(v) - v| <= 2^-53 |fl(v)| + 2^-1074; the last term is for underflow.
+// Computing a bound rounds a few times; a factor of 1 + 2^-50 covers that.
 #pragma once
 
 #include <cmath>
@@ -14,7 +13,7 @@ namespace edgewise::lab {
 struct Ball {
   double value, error;
 
-  Ball(double v) : value(v), error(0.0) {}  // NOLINT: a number is a ball
+  Ball(double v = 0.0, double e = 0.0) : value(v), error(e) {}  // NOLINT: a number is a ball
 
   // 1 or -1; 0 if the error bound leaves the sign open.
   int sign() const { return std::abs(value) > error ? (value > 0.0 ? 1 : -1) : 0; }
@@ -38,8 +37,9 @@ struct Ball {
   }
 
  private:
-  Ball(double v, double e) : value(v), error(e) {}
-  static Ball rounded(double v, double e) { return {v, (e + 0x1p-53 * std::abs(v)) * (1.0 + 0x1p-50)}; }
+  static Ball rounded(double v, double e) {
+    return {v, (e + 0x1p-53 * std::abs(v) + 0x1p-1074) * (1.0 + 0x1p-50)};
+  }
 };
 
 }  // namespace edgewise::lab

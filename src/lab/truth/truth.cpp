@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 
-#include "core/parallel.h"
+#include "lab/truth/scan.h"
 
 namespace edgewise::lab {
 
@@ -38,90 +36,29 @@ int sign_of(Wide v) {
   return (v > 0) - (v < 0);
 }
 
-int snapped_side(const ScreenTriangle& t, int from, int to, Wide sx, Wide sy) {
+int snapped_side(const ScreenTriangle& t, std::size_t from, std::size_t to, Wide sx, Wide sy) {
   return sign_of(
       cross(Wide{t.x_q15[from]}, Wide{t.y_q15[from]}, Wide{t.x_q15[to]}, Wide{t.y_q15[to]}, sx, sy));
-}
-
-int float_side(const UnsnappedTriangle& t, int from, int to, double sx, double sy) {
-  const double px = double{t.x_px[from]}, py = double{t.y_px[from]}, qx = double{t.x_px[to]},
-               qy = double{t.y_px[to]};
-  const Ball estimate = cross(Ball(px), Ball(py), Ball(qx), Ball(qy), Ball(sx), Ball(sy));
-  if (const int sign = estimate.sign(); sign != 0) return sign;
-  return sgn(cross(mpq_class(px), mpq_class(py), mpq_class(qx), mpq_class(qy), mpq_class(sx), mpq_class(sy)));
 }
 
 constexpr double sample_px(int pixel) {
   return pixel + 0.5;
 }
 
-// The smallest k in [low, high] with holds(k); high if there is none below it. `holds` must be monotone:
-// false, then true. A correct guess saves the binary search.
-template <typename Predicate>
-int first_where(int low, int high, int guess, Predicate&& holds) {
-  guess = std::clamp(guess, low, high);
-  if (guess < high && !holds(guess))
-    low = guess + 1;
-  else if (guess > low && holds(guess - 1))
-    high = guess - 1;
-  else
-    return guess;
-  while (low < high) {
-    const int middle = low + (high - low) / 2;
-    if (holds(middle))
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return low;
+// Where an edge crosses the samples of a row.
+template <typename Truth>
+double crossing_of(const Truth& truth, std::size_t edge, int py) {
+  const std::size_t next = (edge + 1) % 3;
+  const double slope = (truth.x_px(next) - truth.x_px(edge)) / (truth.y_px(next) - truth.y_px(edge));
+  return truth.x_px(edge) + (sample_px(py) - truth.y_px(edge)) * slope;
 }
 
-// The covered pixels of a row, as [first, second). Along a row each edge accepts the pixels on one side of a
-// position. The crossing in double is only a guess for that position; the exact rule decides.
+// The pixels inside the window that overlap the triangle's bounding box.
 template <typename Truth>
-std::pair<int, int> covered_in_row(const Truth& truth, int y, int low, int high) {
-  for (int i = 0; i < 3 && low < high; ++i) {
-    const int lean = truth.rule().lean(i), next = (i + 1) % 3;
-    if (lean == 0) {
-      if (!truth.accepts(i, low, y)) return {low, low};
-      continue;
-    }
-    const double slope = (truth.x_px(next) - truth.x_px(i)) / (truth.y_px(next) - truth.y_px(i));
-    const double crossing = truth.x_px(i) + (sample_px(y) - truth.y_px(i)) * slope + 0.5;
-    const int guess =
-        crossing > low ? (crossing < high ? static_cast<int>(std::floor(crossing)) : high) : low;
-    const bool wanted = lean > 0;
-    const int change = first_where(low, high, guess, [&](int x) { return truth.accepts(i, x, y) == wanted; });
-    (wanted ? low : high) = change;
-  }
-  return {low, std::max(low, high)};
-}
-
-struct Box {
-  int x0, y0, x1, y1;
-};
-
-// The candidate pixels: those inside the window that overlap the triangle's bounding box.
-template <typename Truth>
-Box box_of(const Truth& truth, Window window) {
+PixelBounds box_of(const Truth& truth, Window window) {
   const auto [low_x, high_x] = std::minmax({truth.x_px(0), truth.x_px(1), truth.x_px(2)});
   const auto [low_y, high_y] = std::minmax({truth.y_px(0), truth.y_px(1), truth.y_px(2)});
-  const auto clip = [](double v, int low, int high) {
-    return static_cast<int>(std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
-  };
-  return {clip(std::floor(low_x), window.x0, window.x1()), clip(std::floor(low_y), window.y0, window.y1()),
-          clip(std::ceil(high_x), window.x0, window.x1()), clip(std::ceil(high_y), window.y0, window.y1())};
-}
-
-// Calls emit(y, x0, x1) for each covered run, from the top down.
-template <typename Truth, typename Emit>
-void for_each_run(const Truth& truth, Window window, Emit&& emit) {
-  if (truth.facing() == 0) return;
-  const Box box = box_of(truth, window);
-  for (int y = box.y0; y < box.y1; ++y) {
-    const auto [begin, end] = covered_in_row(truth, y, box.x0, box.x1);
-    if (begin < end) emit(y, begin, end);
-  }
+  return pixels_between(low_x, low_y, high_x, high_y, window);
 }
 
 SnappedTruth truth_of(const ScreenTriangle& t) {
@@ -146,92 +83,44 @@ bool reaches_rows(const FloatTriangle& t, Window rows) {
 }
 
 template <typename Triangle>
-std::vector<Run> all_runs(std::span<const Triangle> triangles, Window window, int threads) {
-  constexpr std::size_t kTrianglesPerTask = 1024;
-  const std::size_t tasks = (triangles.size() + kTrianglesPerTask - 1) / kTrianglesPerTask;
-  std::vector<std::vector<Run>> runs_of(tasks);
-  parallel_for(threads, static_cast<int>(tasks), [&](int task) {
-    const auto t = static_cast<std::size_t>(task);
-    for (std::size_t i = t * kTrianglesPerTask; i < std::min(triangles.size(), (t + 1) * kTrianglesPerTask);
-         ++i)
-      for_each_run(truth_of(triangles[i]), window, [&](int y, int begin, int end) {
-        runs_of[t].push_back({static_cast<std::uint32_t>(i), y, begin, end});
-      });
-  });
-  std::size_t count = 0;
-  for (const auto& some : runs_of) count += some.size();
-  std::vector<Run> runs;
-  runs.reserve(count);
-  for (const auto& some : runs_of) runs.insert(runs.end(), some.begin(), some.end());
-  return runs;
+std::vector<Run> runs_of(std::span<const Triangle> triangles, Window window, int threads) {
+  return all_runs(
+      triangles.size(), [&](std::size_t i) { return truth_of(triangles[i]); }, window, threads);
 }
 
 template <typename Triangle>
-class VisibleTriangleFinder {
- public:
-  VisibleTriangleFinder(std::span<const Triangle> triangles, Window window)
-      : triangles_(triangles),
-        result_{window, std::vector(pixels(window), kNoTriangle),
-                std::vector(pixels(window), std::numeric_limits<double>::infinity())} {}
-
-  VisibleTriangles run(int threads) && {
-    constexpr int kRows = 16;
-    const Window& window = result_.window;
-    parallel_for(threads, (window.height + kRows - 1) / kRows, [&](int band) {
-      const int y0 = window.y0 + band * kRows;
-      find({window.width, std::min(kRows, window.y1() - y0), window.x0, y0});
-    });
-    return std::move(result_);
-  }
-
- private:
-  static std::size_t pixels(Window w) {
-    return static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height);
-  }
-
-  void find(Window band) {
-    std::vector<Ball> nearest(pixels(band), Ball(0.0));
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      if (!reaches_rows(triangles_[i], band)) continue;
-      const auto truth = truth_of(triangles_[i]);
-      for_each_run(truth, band, [&](int y, int begin, int end) {
-        for (int x = begin; x < end; ++x) {
-          const auto in_band = static_cast<std::size_t>(y - band.y0) * static_cast<std::size_t>(band.width) +
-                               static_cast<std::size_t>(x - band.x0);
-          const std::size_t at = in_band + static_cast<std::size_t>(band.y0 - result_.window.y0) *
-                                               static_cast<std::size_t>(band.width);
-          const Ball depth = truth.depth_estimate(x, y);
-          if (!wins(truth, depth, result_.triangle[at], nearest[in_band], x, y)) continue;
-          nearest[in_band] = depth;
-          result_.triangle[at] = static_cast<std::uint32_t>(i);
-          const bool close = depth.error <= 0x1p-41 * std::abs(depth.value);
-          result_.depth[at] = close ? depth.value : truth.depth(x, y).get_d();
-        }
-      });
-    }
-  }
-
-  template <typename Truth>
-  bool wins(const Truth& truth, const Ball& depth, std::uint32_t visible_id, const Ball& nearest, int x,
-            int y) const {
-    if (visible_id == kNoTriangle) return true;
-    if (const int sign = (depth - nearest).sign(); sign != 0) return sign < 0;
-    return truth.depth(x, y) < truth_of(triangles_[visible_id]).depth(x, y);
-  }
-
-  std::span<const Triangle> triangles_;
-  VisibleTriangles result_;
-};
+VisibleTriangles visible_of(std::span<const Triangle> triangles, Window window, int threads) {
+  return VisibleTriangleFinder(
+             triangles.size(), [&](std::size_t i) { return truth_of(triangles[i]); },
+             [&](std::size_t i, Window rows) { return reaches_rows(triangles[i], rows); }, window)
+      .run(threads);
+}
 
 }  // namespace
+
+PixelBounds pixels_between(double x0, double y0, double x1, double y1, Window window) {
+  const auto clip = [](double v, int low, int high) {
+    return static_cast<int>(std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
+  };
+  return {clip(std::floor(x0), window.x0, window.x1()), clip(std::floor(y0), window.y0, window.y1()),
+          clip(std::ceil(x1), window.x0, window.x1()), clip(std::ceil(y1), window.y0, window.y1())};
+}
 
 SnappedTruth::SnappedTruth(const ScreenTriangle& triangle)
     : triangle_(triangle),
       rule_(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])) {}
 
-bool SnappedTruth::accepts(int edge, int px, int py) const {
+bool SnappedTruth::accepts(std::size_t edge, int px, int py) const {
   return rule_.accepts(edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384,
                                           Wide{py} * 32768 + 16384));
+}
+
+double SnappedTruth::crossing(std::size_t edge, int py) const {
+  return crossing_of(*this, edge, py);
+}
+
+PixelBounds SnappedTruth::box(Window window) const {
+  return box_of(*this, window);
 }
 
 bool SnappedTruth::covers(int px, int py) const {
@@ -249,12 +138,32 @@ Ball SnappedTruth::depth_estimate(int px, int py) const {
   return plane_of<Ball>(triangle_.x_q15, triangle_.y_q15, z, sample_px(px) * 32768, sample_px(py) * 32768);
 }
 
-FloatTruth::FloatTruth(const UnsnappedTriangle& triangle)
-    : triangle_(triangle),
-      rule_(triangle.y_px, float_side(triangle, 0, 1, double{triangle.x_px[2]}, double{triangle.y_px[2]})) {}
+FloatTruth::FloatTruth(const double (&x_px)[3], const double (&y_px)[3])
+    : x_{x_px[0], x_px[1], x_px[2]}, y_{y_px[0], y_px[1], y_px[2]}, rule_(y_, side(0, 1, x_[2], y_[2])) {}
 
-bool FloatTruth::accepts(int edge, int px, int py) const {
-  return rule_.accepts(edge, float_side(triangle_, edge, (edge + 1) % 3, sample_px(px), sample_px(py)));
+FloatTruth::FloatTruth(const UnsnappedTriangle& t)
+    : FloatTruth({double{t.x_px[0]}, double{t.x_px[1]}, double{t.x_px[2]}},
+                 {double{t.y_px[0]}, double{t.y_px[1]}, double{t.y_px[2]}}) {
+  for (int i = 0; i < 3; ++i) z_[i] = double{t.z01[i]};
+}
+
+int FloatTruth::side(std::size_t from, std::size_t to, double sx, double sy) const {
+  const Ball estimate = cross(Ball(x_[from]), Ball(y_[from]), Ball(x_[to]), Ball(y_[to]), Ball(sx), Ball(sy));
+  if (const int sign = estimate.sign(); sign != 0) return sign;
+  return sgn(cross(mpq_class(x_[from]), mpq_class(y_[from]), mpq_class(x_[to]), mpq_class(y_[to]),
+                   mpq_class(sx), mpq_class(sy)));
+}
+
+bool FloatTruth::accepts(std::size_t edge, int px, int py) const {
+  return rule_.accepts(edge, side(edge, (edge + 1) % 3, sample_px(px), sample_px(py)));
+}
+
+double FloatTruth::crossing(std::size_t edge, int py) const {
+  return crossing_of(*this, edge, py);
+}
+
+PixelBounds FloatTruth::box(Window window) const {
+  return box_of(*this, window);
 }
 
 bool FloatTruth::covers(int px, int py) const {
@@ -262,28 +171,33 @@ bool FloatTruth::covers(int px, int py) const {
 }
 
 mpq_class FloatTruth::depth(int px, int py) const {
-  const double z[3] = {double{triangle_.z01[0]}, double{triangle_.z01[1]}, double{triangle_.z01[2]}};
-  return plane_of<mpq_class>(triangle_.x_px, triangle_.y_px, z, sample_px(px), sample_px(py));
+  return plane_of<mpq_class>(x_, y_, z_, sample_px(px), sample_px(py));
 }
 
 Ball FloatTruth::depth_estimate(int px, int py) const {
-  const double z[3] = {double{triangle_.z01[0]}, double{triangle_.z01[1]}, double{triangle_.z01[2]}};
-  return plane_of<Ball>(triangle_.x_px, triangle_.y_px, z, sample_px(px), sample_px(py));
+  return plane_of<Ball>(x_, y_, z_, sample_px(px), sample_px(py));
 }
 
 std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads) {
-  return all_runs(triangles, window, threads);
+  return runs_of(triangles, window, threads);
 }
 std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads) {
-  return all_runs(triangles, window, threads);
+  return runs_of(triangles, window, threads);
 }
+std::vector<glm::dvec3> FloatSource::outline(std::uint32_t triangle) const {
+  const UnsnappedTriangle& t = triangles_[triangle].at;
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < 3; ++i) corners.emplace_back(t.x_px[i], t.y_px[i], t.z01[i]);
+  return corners;
+}
+
 VisibleTriangles exact_visible_triangles(std::span<const ScreenTriangle> triangles, Window window,
                                          int threads) {
-  return VisibleTriangleFinder(triangles, window).run(threads);
+  return visible_of(triangles, window, threads);
 }
 VisibleTriangles exact_visible_triangles(std::span<const FloatTriangle> triangles, Window window,
                                          int threads) {
-  return VisibleTriangleFinder(triangles, window).run(threads);
+  return visible_of(triangles, window, threads);
 }
 
 }  // namespace edgewise::lab

@@ -1,15 +1,17 @@
-// The two exact truths against which methods are scored. Both apply the fill rule at each sample.
+// The exact truths of positions on the screen. Both apply the fill rule at each sample.
 //   SnappedTruth: on the snapped positions, in 128-bit integers. Errors against it are errors of arithmetic.
 //   FloatTruth:   on the positions before snapping, in doubles with an error bound, and in GMP's rationals
 //   where
 //                 the bound leaves a sign open. Errors against it are errors of arithmetic and of snapping.
-// They share no arithmetic with edgewise/contract.h or with any backend.
+// They share no arithmetic with edgewise/contract.h or with any backend. A scene's positions come from a
+// front end, which errs before them: SceneTruth (lab/projection/truth.h) begins at the scene's vertices.
 #pragma once
 
 #include <gmpxx.h>
 
 #include <compare>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -29,6 +31,13 @@ struct Window {
   int x1() const { return x0 + width; }
   int y1() const { return y0 + height; }
 };
+
+// Pixels [x0, x1) of rows [y0, y1).
+struct PixelBounds {
+  int x0, y0, x1, y1;
+};
+// The pixels inside the window that a box touches.
+PixelBounds pixels_between(double x0, double y0, double x1, double y1, Window window);
 
 // Pixels [x0, x1) of a row, drawn for one triangle.
 struct Run {
@@ -53,30 +62,34 @@ class FillRule {
   }
   int facing() const { return facing_; }
   // The side of an edge on which the triangle lies: 1 right, -1 left, 0 if the edge is horizontal.
-  int lean(int edge) const { return lean_[edge]; }
+  int lean(std::size_t edge) const { return lean_[edge]; }
   // `side` is the sign of cross(from, to, sample).
-  bool accepts(int edge, int side) const { return side == 0 ? accepts_ties_[edge] : side == facing_; }
+  bool accepts(std::size_t edge, int side) const { return side == 0 ? accepts_ties_[edge] : side == facing_; }
 
  private:
   int facing_, lean_[3];
   bool accepts_ties_[3];
 };
 
-// Both truths have the same interface. Edge i runs from vertex i to the next one; a pixel's sample is its
-// centre.
+// Both truths have the same interface, which lab/truth/scan.h states. Edge i runs from vertex i to the next
+// one; a pixel's sample is its centre.
 class SnappedTruth {
  public:
   explicit SnappedTruth(const ScreenTriangle& triangle);
   int facing() const { return rule_.facing(); }  // 1 front (clockwise), -1 back, 0 without area
   bool covers(int px, int py) const;
-  bool accepts(int edge, int px, int py) const;
+  std::size_t sides() const { return 3; }
+  int lean(std::size_t edge) const { return rule_.lean(edge); }
+  bool accepts(std::size_t edge, int px, int py) const;
+  double crossing(std::size_t edge, int py) const;
+  PixelBounds box(Window window) const;
   // On the exact plane, in depth units of rule 6. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
+  static constexpr double kDepthError = 0.0;
 
-  const FillRule& rule() const { return rule_; }
-  double x_px(int vertex) const { return triangle_.x_q15[vertex] / 32768.0; }
-  double y_px(int vertex) const { return triangle_.y_q15[vertex] / 32768.0; }
+  double x_px(std::size_t vertex) const { return triangle_.x_q15[vertex] / 32768.0; }
+  double y_px(std::size_t vertex) const { return triangle_.y_q15[vertex] / 32768.0; }
 
  private:
   ScreenTriangle triangle_;
@@ -87,25 +100,60 @@ class FloatTruth {
  public:
   // Coordinates and depths must be finite.
   explicit FloatTruth(const UnsnappedTriangle& triangle);
+  // Positions in double; without depth.
+  FloatTruth(const double (&x_px)[3], const double (&y_px)[3]);
   int facing() const { return rule_.facing(); }
   bool covers(int px, int py) const;
-  bool accepts(int edge, int px, int py) const;
+  std::size_t sides() const { return 3; }
+  int lean(std::size_t edge) const { return rule_.lean(edge); }
+  bool accepts(std::size_t edge, int px, int py) const;
+  double crossing(std::size_t edge, int py) const;
+  PixelBounds box(Window window) const;
   // On the exact plane, in the unit of z01. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
+  static constexpr double kDepthError = 0.0;
 
-  const FillRule& rule() const { return rule_; }
-  double x_px(int vertex) const { return double{triangle_.x_px[vertex]}; }
-  double y_px(int vertex) const { return double{triangle_.y_px[vertex]}; }
+  double x_px(std::size_t vertex) const { return x_[vertex]; }
+  double y_px(std::size_t vertex) const { return y_[vertex]; }
 
  private:
-  UnsnappedTriangle triangle_;
+  int side(std::size_t from, std::size_t to, double x_px, double y_px) const;
+
+  double x_[3], y_[3], z_[3] = {};
   FillRule rule_;
+};
+
+// What a picture is judged against before anything is projected or rounded. Triangles are numbered as they
+// were submitted.
+class SourceTruth {
+ public:
+  virtual ~SourceTruth() = default;
+  virtual std::size_t size() const = 0;  // number of triangles
+  // As covered_runs() below.
+  virtual std::vector<Run> runs(Window window, int threads) const = 0;
+  // The corners of a triangle's visible part, in order: x and y in pixels, depth from 0 to 1, rounded to
+  // double. Empty if it draws nothing.
+  virtual std::vector<glm::dvec3> outline(std::uint32_t triangle) const = 0;
 };
 
 // All covered pixels, sorted by triangle and row; a triangle has at most one run per row.
 std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
 std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
+
+// The truth of triangles that come with screen positions. They must outlive it.
+class FloatSource final : public SourceTruth {
+ public:
+  explicit FloatSource(std::span<const FloatTriangle> triangles) : triangles_(triangles) {}
+  std::size_t size() const override { return triangles_.size(); }
+  std::vector<Run> runs(Window window, int threads) const override {
+    return covered_runs(triangles_, window, threads);
+  }
+  std::vector<glm::dvec3> outline(std::uint32_t triangle) const override;
+
+ private:
+  std::span<const FloatTriangle> triangles_;
+};
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 // The visible triangle of each pixel, row by row: the nearest one, at a tie the earlier one, by exact

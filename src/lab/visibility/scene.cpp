@@ -80,7 +80,9 @@ VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull) {
                                               .shade = false,
                                               .payload = Payload::id,
                                               .keep_unsnapped = true});
-  return visibility_scene(triangles, frontend.unsnapped(), scene, size);
+  VisibilityScene result = visibility_scene(triangles, frontend.unsnapped(), scene, size);
+  result.truth = std::make_shared<SceneTruth>(scene, size, cull);
+  return result;
 }
 
 }  // namespace edgewise::lab

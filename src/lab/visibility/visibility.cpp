@@ -83,12 +83,15 @@ class Judge {
   bool covers(std::uint32_t id, int x, int y) const {
     const VisibilityTriangle& t = scene_.triangles[id];
     if (snapped_) return SnappedTruth(t.screen).covers(x, y);
+    if (scene_.truth) return scene_.truth->covers(t.screen.payload, x + 0.5, y + 0.5);
     return FloatTruth({{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}})
         .covers(x, y);
   }
   // The background's depth is 1. Accurate to about 2^-51 on snapped positions.
   double depth01(std::uint32_t id, int x, int y) const {
     if (id == kNoTriangle) return 1.0;
+    if (!snapped_ && scene_.truth)
+      return scene_.truth->depth01(scene_.triangles[id].screen.payload, x + 0.5, y + 0.5);
     return depth01_of(Plane(scene_.triangles[id], snapped_).nearness<double>(x, y), scene_);
   }
   // Returns the error of the stored depth, in depth01.
@@ -127,18 +130,18 @@ class Judge {
 class Scorer {
  public:
   Scorer(const VisibilityMethod& method, const VisibilityScene& scene)
-      : method_(method), scene_(scene), snapped_(method, scene, true), floats_(method, scene, false) {
+      : method_(method), scene_(scene), snapped_(method, scene, true), source_(method, scene, false) {
     method.draw(scene, frame_);
   }
   void add(int x, int y, const TrueVisibleTriangles& visible) {
     const std::size_t pixel = pixel_at(scene_, x, y);
     const std::uint32_t drawn = frame_.visible[pixel];
-    add_float(drawn, visible.floats[pixel], x, y);
+    add_source(drawn, visible.source[pixel], x, y);
     if (!keeps_promise(drawn, visible.snapped[pixel], x, y)) ++scores_.broken;
   }
   VisibilityScores report() {
     scores_.snapped = snapped_.report();
-    scores_.floats = floats_.report();
+    scores_.source = source_.report();
     return scores_;
   }
 
@@ -148,10 +151,12 @@ class Scorer {
     return id == kNoTriangle ? 0.0 : method_.bound01(scene_.triangles[id], scene_);
   }
 
-  void add_float(std::uint32_t drawn, std::uint32_t truth, int x, int y) {
-    floats_.add_visible(drawn, truth);
+  void add_source(std::uint32_t drawn, std::uint32_t truth, int x, int y) {
+    const std::uint32_t source =
+        drawn == kNoTriangle || !scene_.truth ? drawn : scene_.triangles[drawn].screen.payload;
+    source_.add_visible(source, truth);
     if (drawn == kNoTriangle || !keeps_depth()) return;
-    if (drawn == truth || floats_.covers(drawn, x, y)) floats_.add_depth(frame_, drawn, x, y);
+    if (source == truth || source_.covers(drawn, x, y)) source_.add_depth(frame_, drawn, x, y);
   }
   bool keeps_promise(std::uint32_t drawn, std::uint32_t truth, int x, int y) {
     snapped_.add_visible(drawn, truth);
@@ -171,7 +176,7 @@ class Scorer {
   const VisibilityMethod& method_;
   const VisibilityScene& scene_;
   VisibilityFrame frame_;
-  Judge snapped_, floats_;
+  Judge snapped_, source_;
   VisibilityScores scores_;
 };
 
@@ -184,11 +189,14 @@ std::vector<std::uint32_t> snapped_visible_triangles(const VisibilityScene& scen
 }
 
 TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene) {
+  const Window window{scene.width, scene.height};
+  if (scene.truth)
+    return {snapped_visible_triangles(scene), scene.truth->visible_triangles(window, 1).triangle};
   std::vector<FloatTriangle> floats;
   for (const VisibilityTriangle& t : scene.triangles)
     floats.push_back({{{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}}, 0});
   return {snapped_visible_triangles(scene),
-          visible_triangles_of(scene, covered_runs(floats, {scene.width, scene.height}, 1), false)};
+          visible_triangles_of(scene, covered_runs(floats, window, 1), false)};
 }
 
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,

@@ -1,26 +1,29 @@
 // Visibility methods: painter's orders and depth buffers, scored against the true view-space planes.
 //
 // Every method draws the same snapped triangles with the same exact coverage (rules 2 and 4), so that they
-// differ in visibility only. There are two truths, on the snapped positions and on those before snapping.
-// Both use rationals: 1 / view_z is linear on the screen, and the vertices' coordinates and distances are
-// exact. The nearest plane is visible; at a tie the earlier triangle. Unlike exact_visible_triangles()
-// (lab/truth/truth.h) they use unrounded distances instead of the front end's depths, since the methods
-// differ in how they round depth.
+// differ in visibility only. There are two truths. That of the source is the exact projection of the scene's
+// vertices, or the unsnapped positions of a scene that is given on the screen. The other one is on the
+// snapped positions. Both use rationals: 1 / view_z is linear on the screen. The nearest plane is visible; at
+// a tie the earlier triangle. Unlike exact_visible_triangles() (lab/truth/truth.h) they use unrounded
+// distances instead of the front end's depths, since the methods differ in how they round depth.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
 #include "lab/method.h"
-#include "lab/truth/truth.h"
+#include "lab/projection/truth.h"
 
 namespace edgewise::lab {
 
 struct VisibilityTriangle {
-  ScreenTriangle screen;   // z: the front end's depth (rule 6), of view_z as a float
+  // Its z is the front end's depth (rule 6), of view_z as a float. Its payload is the id of the triangle in
+  // VisibilityScene::truth that it comes from.
+  ScreenTriangle screen;
   float x_px[3], y_px[3];  // before snapping
   double view_z[3];        // distance along the view direction, near … far
 };
@@ -35,7 +38,8 @@ struct VisibilityScene {
   int width, height;  // px
   double near_z, far_z;
   std::vector<VisibilityTriangle> triangles;
-  std::vector<VisibilityFace> faces;  // cover all triangles, in order; painters sort them
+  std::vector<VisibilityFace> faces;                  // cover all triangles, in order; painters sort them
+  std::shared_ptr<const SceneTruth> truth = nullptr;  // null: the scene is given on the screen
 };
 
 // The draw target of a method; keeps its memory between draws. A method uses the depth buffer of its format
@@ -69,9 +73,10 @@ struct VisibilityMethod {
 // Ours first. The table is in methods.cpp.
 std::span<const VisibilityMethod> visibility_methods();
 
-// The exact visible triangle of each pixel or kNoTriangle, row by row, in both truths.
+// The exact visible triangle of each pixel or kNoTriangle, row by row, in both truths. That of the source is
+// an id if the scene has a `truth`, otherwise an index.
 struct TrueVisibleTriangles {
-  std::vector<std::uint32_t> snapped, floats;
+  std::vector<std::uint32_t> snapped, source;
 };
 TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene);
 std::vector<std::uint32_t> snapped_visible_triangles(const VisibilityScene& scene);
@@ -86,7 +91,7 @@ struct VisibilityScore {
   double max_ulp = 0, rms_ulp = 0;
 };
 struct VisibilityScores {
-  VisibilityScore snapped, floats;
+  VisibilityScore snapped, source;
   // Promises concern the snapped positions, the methods' only input. wrong_triangle pixels against that truth
   // that are depth ties within tolerance: the two depths differ by at most the sum of both triangles' bounds.
   std::uint64_t depth_ties = 0;

@@ -310,7 +310,7 @@ class Panel::Contents {
     if (section("Keys"))
       for (const KeyRow& keys : key_table()) row(keys.keys, keys.does);
     constexpr const char* kTitles[] = {"Coverage methods [b]", "Visibility methods [z]", "Facing tests [n]",
-                                       "Clipping methods [x]"};
+                                       "Clipping methods [x]", "Projection methods"};
     for (const lab::Family family : lab::kFamilies)
       if (section(kTitles[static_cast<std::size_t>(family)]))
         for (const lab::MethodInfo& method : lab::methods_of(family)) row(method.name, method.summary);
