@@ -40,7 +40,7 @@ TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsPredicted) {
   const json report = json_of("drtk_quad lattice_square");
   const auto count = [&](const char* scene, const char* method, const char* what) {
     const json& entry = named(named(report.at("scenes"), scene).at("methods"), method);
-    return entry.at(entry.at("cracks").contains(what) ? "cracks" : "float").at(what).get<int>();
+    return entry.at(entry.at("cracks").contains(what) ? "cracks" : "source").at(what).get<int>();
   };
   EXPECT_EQ(count("drtk_quad", "float_le", "double_hits"), 6);
   EXPECT_EQ(count("drtk_quad", "float_le", "gaps"), 0);
@@ -61,7 +61,7 @@ TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
     });
   };
   EXPECT_EQ(count({}), 0);
-  EXPECT_EQ(count({"quads", "knots"}), 3);  // knots in coverage and in visibility
+  EXPECT_EQ(count({"quads", "knots"}), 4);  // knots in coverage, visibility and projection
 }
 
 // facts_test.cpp compares all keys of small scenes with the committed ones.
@@ -77,8 +77,8 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
   EXPECT_EQ(quad.at("crossings"), 36);
   EXPECT_EQ(quad.at("shared_crossings"), 6) << "crossings of the diagonal";
   EXPECT_NEAR(quad.at("largest_side_px").get<double>(), 6.0, 1e-4);
-  EXPECT_GT(quad.at("methods").at(0).at("float").at("bound_per_million"), 0);
-  const json& wrong = named(quad.at("methods"), "float_le").at("float");
+  EXPECT_GT(quad.at("methods").at(0).at("source").at("bound_per_million"), 0);
+  const json& wrong = named(quad.at("methods"), "float_le").at("source");
   EXPECT_GT(wrong.at("errors_per_million"), 0);
   EXPECT_FALSE(wrong.contains("bound_per_million"));
 
@@ -101,7 +101,7 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
 TEST(Accuracy, TheZNormalTestAloneMisjudgesTheBox) {
   const json report = json_of("box_beside_the_axis");
   for (const json& method : report.at("scenes").at(0).at("methods"))
-    for (const char* truth : {"snapped", "float"})
+    for (const char* truth : {"snapped", "source"})
       EXPECT_EQ(method.at(truth).at("misclassified"), method.at("name") == "normal_z" ? 1 : 0) << method;
 }
 

@@ -210,7 +210,7 @@ TEST(LimitedMemory, WritesAFileOrOneLineOfErrorAtEveryLimit) {
   for (const std::string command : {"edgewise render torus-knot --size 1900x1900 --threads 1 -o $DIR/a.png",
                                     "edgewise capture terrain -o $DIR/a.tri",
                                     "edgewise stability cycle --quick --threads 1 --json $DIR/a.json"})
-    for (const int kib : {15'000, 20'000, 30'000, 40'000, 50'000, 60'000, 80'000, 150'000, 300'000}) {
+    for (const int kib : {16'000, 20'000, 30'000, 40'000, 50'000, 60'000, 80'000, 150'000, 300'000}) {
       const TempDir folder;
       const auto status = status_within(kib, command, folder);
       if (!status) continue;

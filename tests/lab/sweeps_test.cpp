@@ -181,7 +181,7 @@ TEST(CoverageSweeps, EdgeEquationsFailFarFromTheOriginWhereEdgesRelativeToAVerte
   const Sweep& distance = find_sweep("distance");
   for (const auto& [px, plain, fused] : {std::tuple{512.0, 380, 354}, {16384.0, 438'816, 343'379}}) {
     const SweepResult all{&distance,
-                          std::vector<Measured>(distance.positions.size(), distance.measure(px, false))};
+                          std::vector<Measured>(distance.positions.size(), distance.measure(px, false, 8))};
     EXPECT_NEAR(1e6 * rate(Found(all, "float_equation").at(px)), plain, 0.15 * plain);
     EXPECT_NEAR(1e6 * rate(Found(all, "float_equation_fma").at(px)), fused, 0.15 * fused);
     EXPECT_EQ(Found(all, "float_top_left").at(px).errors, 0u);

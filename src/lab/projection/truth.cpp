@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 
 #include "core/finite.h"
@@ -130,7 +129,7 @@ class SceneTruth::TriangleTruth {
   int lean(std::size_t i) const { return estimate_->lean[i]; }
   bool accepts(std::size_t i, double x_px, double y_px) const {
     int side = sign(estimate_->conditions.at(i, x_px, y_px));
-    if (side == 0) side = sign(exact().at(i, x_px, y_px));
+    if (side == 0) side = sign(scene_.exact(triangle_).at(i, x_px, y_px));
     return side == 0 ? estimate_->accepts_ties[i] : side == facing_;
   }
   bool accepts(std::size_t i, int px, int py) const { return accepts(i, px + 0.5, py + 0.5); }
@@ -151,7 +150,7 @@ class SceneTruth::TriangleTruth {
 
   Ball depth_estimate(double x_px, double y_px) const { return depth(estimate_->conditions, x_px, y_px); }
   Ball depth_estimate(int px, int py) const { return depth_estimate(px + 0.5, py + 0.5); }
-  mpq_class depth(double x_px, double y_px) const { return depth(exact(), x_px, y_px); }
+  mpq_class depth(double x_px, double y_px) const { return depth(scene_.exact(triangle_), x_px, y_px); }
   mpq_class depth(int px, int py) const { return depth(px + 0.5, py + 0.5); }
 
  private:
@@ -159,16 +158,11 @@ class SceneTruth::TriangleTruth {
   T depth(const Conditions<T>& c, double x_px, double y_px) const {
     return T(T(c.at(Conditions<T>::kNear, x_px, y_px) / c.det) * T(scene_.depth_scale_));
   }
-  const Conditions<mpq_class>& exact() const {
-    if (!exact_) exact_.emplace(scene_.exact(triangle_));
-    return *exact_;
-  }
 
   const SceneTruth& scene_;
   std::size_t triangle_;
   int facing_;
   const Estimate* estimate_ = nullptr;  // if it draws something
-  mutable std::optional<Conditions<mpq_class>> exact_;
 };
 
 SceneTruth::SceneTruth(Scene scene, Size size, Cull cull)
@@ -177,6 +171,10 @@ SceneTruth::SceneTruth(Scene scene, Size size, Cull cull)
     const double near_z = scene_.camera.near_z, far_z = scene_.camera.far_z;
     depth_scale_ = far_z / (far_z - near_z);
   }
+  std::size_t triangles = 0;
+  for (const Instance& instance : scene_.instances)
+    triangles += scene_.meshes.at(instance.mesh).triangles.size();
+  exact_of_ = std::make_unique<Exact[]>(triangles);
   std::vector<ClipPoint<Ball>> vertices;
   for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
     const Mesh& mesh = scene_.meshes.at(scene_.instances[i].mesh);
@@ -231,11 +229,8 @@ void SceneTruth::add(std::uint32_t triangle, Cull cull, const ClipPoint<Ball>& a
   }
   const PixelBounds pixels = pixels_between(box.x0, box.y0, box.x1, box.y1, {size_.width, size_.height});
   Estimate estimate{{a, b, c, double(pixels.x0), double(pixels.y0)}, pixels, Conditions<Ball>::kNear};
-  std::optional<Conditions<mpq_class>> rational;
   const auto sign_of = [&](const Ball& guess, auto&& value) {
-    if (guess.sign() != 0) return guess.sign();
-    if (!rational) rational.emplace(exact(triangle));
-    return sign(value(*rational));
+    return guess.sign() != 0 ? guess.sign() : sign(value(exact(triangle)));
   };
   const int facing = sign_of(estimate.conditions.det, [](const auto& of) { return of.det; });
   if (facing == 0 || !keeps(cull, facing)) return;
@@ -274,8 +269,13 @@ ClipPoint<mpq_class> SceneTruth::exact(std::size_t triangle, int k) const {
   return times(exact_[sources_[triangle].first], position(triangle, k));
 }
 
-Conditions<mpq_class> SceneTruth::exact(std::size_t triangle) const {
-  return {exact(triangle, 0), exact(triangle, 1), exact(triangle, 2), 0.0, 0.0};
+const Conditions<mpq_class>& SceneTruth::exact(std::size_t triangle) const {
+  Exact& found = exact_of_[triangle];
+  std::call_once(found.once, [&] {
+    found.conditions = std::make_unique<const Conditions<mpq_class>>(exact(triangle, 0), exact(triangle, 1),
+                                                                     exact(triangle, 2), 0.0, 0.0);
+  });
+  return *found.conditions;
 }
 
 std::vector<Run> SceneTruth::runs(Window window, int threads) const {

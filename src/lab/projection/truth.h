@@ -13,6 +13,8 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -93,7 +95,7 @@ class SceneTruth final : public SourceTruth {
   void add(std::uint32_t triangle, Cull cull, const ClipPoint<Ball>& a, const ClipPoint<Ball>& b,
            const ClipPoint<Ball>& c);
   TriangleTruth truth_of(std::size_t triangle) const;
-  Conditions<mpq_class> exact(std::size_t triangle) const;
+  const Conditions<mpq_class>& exact(std::size_t triangle) const;
 
   Scene scene_;
   Size size_;
@@ -104,6 +106,11 @@ class SceneTruth final : public SourceTruth {
   std::vector<std::int8_t> facing_;
   std::vector<std::uint32_t> estimate_of_;  // by triangle, if it draws something
   std::vector<Estimate> estimates_;
+  struct Exact {
+    std::once_flag once;
+    std::unique_ptr<const Conditions<mpq_class>> conditions;
+  };
+  std::unique_ptr<Exact[]> exact_of_;  // by triangle, found when an estimate leaves a sign open
 };
 
 }  // namespace edgewise::lab
