@@ -156,7 +156,11 @@ class SceneTruth::TriangleTruth {
  private:
   template <typename T>
   T depth(const Conditions<T>& c, double x_px, double y_px) const {
-    return T(T(c.at(Conditions<T>::kNear, x_px, y_px) / c.det) * T(scene_.depth_scale_));
+    if (scene_.scene_.matrices) return T(c.at(Conditions<T>::kNear, x_px, y_px) / c.det);
+    // The edges' functions add up to det over w. Errors of w count near / w times here.
+    const T sum = T(T(c.at(0, x_px, y_px) + c.at(1, x_px, y_px)) + c.at(2, x_px, y_px));
+    const double near_z = scene_.scene_.camera.near_z;
+    return T(T(scene_.depth_scale_) * T(T(1.0) - T(T(T(near_z) * sum) / c.det)));
   }
 
   const SceneTruth& scene_;

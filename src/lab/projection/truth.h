@@ -99,7 +99,7 @@ class SceneTruth final : public SourceTruth {
 
   Scene scene_;
   Size size_;
-  double depth_scale_;                        // depth is this times the near function, divided by w
+  double depth_scale_;                        // if there is a camera, depth is this times 1 - near / w
   std::vector<ClipMatrix<mpq_class>> exact_;  // by instance
   std::vector<ClipMatrix<Ball>> rounded_;
   std::vector<std::pair<std::size_t, std::size_t>> sources_;
