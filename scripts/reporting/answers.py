@@ -69,7 +69,7 @@ def gap_rows(accuracy):
     if ours:
         told = [(f"`{m.name}`", *counts) for m, *counts in turned if m.name in INSIDE_TESTS] + [("ours", *map(max, zip(*ours)))]
         yield ["Gaps / double hits / wrong samples when the cube turns?", ", ".join(f"{who} {' / '.join(f'{n:,}' for n in of)}" for who, *of in told),
-               f"{accuracy.cube['frames']:,} frames of the tutorials' cube, all added; wrong against the caller's positions, which ours snap to 1/256 px; "
+               f"{accuracy.cube['frames']:,} frames of the tutorials' cube, all added; wrong against the exact projection of its vertices, of which methods get floats, and ours snap these to 1/256 px; "
                "`float_le` takes samples on an edge as inside, `float_lt` does not"]
     told = []
     for scene in (s for s in accuracy.of("coverage") if s.name in ON_AND_OFF_GRID):

@@ -111,7 +111,7 @@ def said(up):
 
 
 def wrong_of(accuracy, method):
-    """Pooled pixels per 10⁶ edge crossings that differ from the exact picture of the caller's positions; None if not counted."""
+    """Pooled pixels per 10⁶ edge crossings that differ from the exact picture of the scene; None if not counted."""
     found = [(m.seen[0], scene.trials, scene.name) for scene in accuracy.pooled("coverage")
              for m in (*scene.measured, *scene.apart) if m.method == method and m.seen and scene.in_range_of(method)]
     return pooled(found, 1e6) if found else None

@@ -85,7 +85,7 @@ def frontier(accuracy, bench, folder, caption):
     kinds = Kinds(FAMILIES["coverage"])
     counts = sorted(cracks.crossings for _, cracks in found.values())
     crossings = " to ".join(dict.fromkeys(map(short, (counts[0], counts[-1]))))
-    subtitle = (f"Further left: fewer pixels that differ from the exact picture of the caller's positions; further up: faster on one thread, "
+    subtitle = (f"Further left: fewer pixels that differ from the exact picture of the scene; further up: faster on one thread, "
                 f"geometric mean of {scenes} scenes ({', '.join(scene.name for scene in timed_scenes(accuracy))}). Filled: no crack seen in "
                 f"{crossings} crossings of shared edges, T-junctions apart; hollow: cracks. Grey numbers: subpixel bits. Ours and other numbers get "
                 f"vertices that are snapped already.")

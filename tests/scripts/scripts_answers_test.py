@@ -166,7 +166,7 @@ class AnswersTest(unittest.TestCase):
                                            cube=turning(("tiled", 0, 0, 5000), ("float_lt", 3, 0, 3), ("float_le", 1, 9, 10), ("fixed_8", 7, 7, 9))))
         self.assertEqual(told, [
             ["Gaps / double hits / wrong samples when the cube turns?", "`float_lt` 3 / 0 / 3, `float_le` 1 / 9 / 10, ours 0 / 0 / 5,000",
-             "3,600 frames of the tutorials' cube, all added; wrong against the caller's positions, which ours snap to 1/256 px; "
+             "3,600 frames of the tutorials' cube, all added; wrong against the exact projection of its vertices, of which methods get floats, and ours snap these to 1/256 px; "
              "`float_le` takes samples on an edge as inside, `float_lt` does not"],
             ["Wrong pixels / of these holes where edges meet pixel centres?", "`mesh_on_grid`: `float_lt` 216 / 0, ours 873 / 0",
              "two meshes that cover the picture; a quarter of the vertices of `mesh_on_grid` lie on centres, all on the 1/256 px grid, those of `mesh` "
