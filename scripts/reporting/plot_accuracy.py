@@ -159,7 +159,7 @@ def errors_title(accuracy, family):
 
     def scenes(ours):
         counts = [erring[m.name] for m in accuracy.methods[family.name] if m.ours == ours] or [0]
-        return " to ".join(dict.fromkeys(map(str, (min(counts), max(counts)))))
+        return "–".join(dict.fromkeys(map(str, (min(counts), max(counts)))))
 
     return f"Ours err in {scenes(True)} of {total} scenes, others in {scenes(False)}"
 
