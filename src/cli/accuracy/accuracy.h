@@ -66,8 +66,8 @@ struct SceneResult {
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
   // Coverage and projection: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that
-  // cover a sample.
-  // Counted by the exact reference: the snapped one where there are two, but for facing that of the source.
+  // cover a sample. Counted by the exact reference: the snapped one where there are two, but for facing that
+  // of the source.
   std::uint64_t covered = 0;
   std::uint64_t crossings = 0;         // coverage and projection: of edges with rows or columns of samples
   std::uint64_t shared_crossings = 0;  // coverage only: of edges that triangles share

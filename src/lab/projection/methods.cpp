@@ -1,10 +1,9 @@
 // The table of projection methods, and what they compute.
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <tuple>
 
 #include "edgewise/contract.h"
+#include "frontend/fixed.h"
 #include "lab/projection/projection.h"
 
 namespace edgewise::lab {
@@ -15,7 +14,7 @@ using Triangles = std::vector<ProjectedTriangle>;
 
 // Rounds to subpixel bits, half to even; not at all without bits.
 double to_grid(double px, std::optional<int> bits) {
-  return bits ? std::ldexp(std::nearbyint(std::ldexp(px, *bits)), -*bits) : px;
+  return bits ? rounded_to(px, *bits) : px;
 }
 double on_grid(const mpq_class& px, int bits) {
   const mpq_class units = px * (1 << bits);
@@ -137,7 +136,8 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
       const auto px = [&](ClipRow axis) {
         return [&, axis](std::size_t k) {
           const Ball at = guess[k][axis] / guess[k][kW];
-          const double low = to_grid(at.value - at.error, bits), high = to_grid(at.value + at.error, bits);
+          const double low = rounded_to(at.value - at.error, bits),
+                       high = rounded_to(at.value + at.error, bits);
           if (low == high) return low;
           const ClipPoint<mpq_class> exact = corner(k);
           return on_grid(exact[axis] / exact[kW], bits);
@@ -172,7 +172,7 @@ constexpr std::string_view kFrontend = "frontend/transform.cpp",
                                "positions off by less than 2^-17 px before rounding, for usual cameras";
 
 ProjectionMethod our(int bits) {
-  const bool fine = bits > 8;
+  const bool fine = is_fine(bits);
   return {{kOurs[bits - kMinSubpixelBits], fine ? "our front end, in double" : "our front end, in float",
            kFrontend, fine ? kInDouble : kInFloat, false},
           bits,
