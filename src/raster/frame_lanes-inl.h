@@ -34,24 +34,6 @@ struct FrameRow {
         payload(reinterpret_cast<std::int32_t*>(frame.payload + y * frame.stride)) {}
 };
 
-// A triangle's depth plane (rule 6) in a box that lies in one row of depth cells.
-class BoxDepth {
- public:
-  BoxDepth(const DepthPlane& plane, const PixelBox& box) : zx(plane.zx), zy_(plane.zy) {
-    for (int x = box.x0 & -kDepthCell; x < box.x1; x += kDepthCell)
-      base_[x / kDepthCell] = plane.base(x, box.y0 & -kDepthCell);
-  }
-  // Depth at the first pixel of the cell that holds pixel x, in row y.
-  std::uint32_t in_cell(int x, int y) const {
-    return base_[x / kDepthCell] + static_cast<std::uint32_t>(y % kDepthCell) * zy_;
-  }
-  const std::uint32_t zx;
-
- private:
-  std::uint32_t zy_;
-  std::uint32_t base_[kMaxImageSide / kDepthCell];
-};
-
 // Depth-tests a vector of pixels, and writes those of `covered` that are nearer.
 HWY_INLINE void write(std::int32_t* depth, std::int32_t* payload, hn::Mask<D> covered, V z, V colour) {
   const auto wins = hn::And(covered, hn::Lt(z, hn::LoadU(D{}, depth)));
@@ -70,40 +52,59 @@ HWY_INLINE V set(std::uint32_t v) {
   return hn::Set(D{}, static_cast<std::int32_t>(v));
 }
 
-// A batch of triangles: their boxes in the area, and their depth planes (rule 6).
-struct FrameBatch {
+// A batch of triangles: their boxes in the area, which lies in one row of depth cells, and their depth planes
+// (rule 6).
+struct alignas(64) FrameBatch {
   std::int32_t x0[kBatch], y0[kBatch], x1[kBatch], y1[kBatch];
-  std::int64_t gx[kBatch], gy[kBatch], origin[kBatch];
+  std::int64_t gx[kBatch];
+  std::int64_t origin[kBatch];  // 2^kPlaneBits (depth at pixel 0 of the row of cells + 1/2), wrapped
   std::int32_t zx[kBatch], zy[kBatch];
+  std::int32_t z0[kBatch];  // depth in the box's first row, at the first pixel of its first cell
 
   PixelBox box(int k) const { return {x0[k], y0[k], x1[k], y1[k]}; }
-  DepthPlane plane(int k) const {
-    const auto bits = [](auto v) { return static_cast<std::make_unsigned_t<decltype(v)>>(v); };
-    return {bits(gx[k]), bits(gy[k]), bits(origin[k]), bits(zx[k]), bits(zy[k])};
+  // Depth in row y of the box, at the first pixel of the cell that holds pixel x.
+  HWY_INLINE std::uint32_t z_in_cell(int k, int x, int y) const {
+    const int cell = x & -kDepthCell;
+    const std::uint32_t down = bits(zy[k]);
+    if (cell <= x0[k]) return bits(z0[k]) + bits(y - y0[k]) * down;
+    const std::uint64_t base = bits(origin[k]) + bits(gx[k]) * (std::uint64_t{bits(cell)} << kFineBits);
+    return static_cast<std::uint32_t>(base >> kPlaneBits) + bits(y % kDepthCell) * down;
   }
 
   // Stores a vector of triangles as entries k … Returns the bits of those that are drawn.
   template <class G>
   HWY_INLINE std::uint32_t store_vector(const TriangleLanes64<G>& t, const BoxLanes& in_area,
-                                        const Area& area, const ScreenTriangle* triangles,
-                                        const std::uint32_t* indices, int k) {
+                                        const Area& area, const FrameTask& task, const std::uint32_t* indices,
+                                        int k) {
     const D64 d;
-    const DepthLanes<G> depth = depth_lanes(t, area, 0, 0);
+    const int row_of_cells = task.area.y0 & -kDepthCell;
+    const DepthLanes<G> depth = depth_lanes(t, area, 0, row_of_cells);
     store(in_area.x0, x0 + k), store(in_area.y0, y0 + k);
     store(in_area.x1, x1 + k), store(in_area.y1, y1 + k);
-    hn::StoreU(depth.gx, d, gx + k), hn::StoreU(depth.gy, d, gy + k),
-        hn::StoreU(hn::ShiftLeft<G::kSpareBits>(depth.start), d, origin + k);
+    hn::StoreU(depth.gx, d, gx + k), hn::StoreU(hn::ShiftLeft<G::kSpareBits>(depth.start), d, origin + k);
     store(depth.x, zx + k), store(depth.y, zy + k);
+    const V in_cells = hn::And(in_area.y0, set32(kDepthCell - 1));
+    const V64 base = hn::Add(
+        depth.start,
+        wrapped_product(depth.gx, hn::ShiftLeft<G::kSubBits>(hn::And(in_area.x0, set32(-kDepthCell)))));
+    store(hn::Add(lower(shift_right<G::kPlaneBits>(base)), hn::Mul(depth.y, in_cells)), z0 + k);
     const std::uint32_t drawn = may_cover(in_area, area);
     for (std::uint32_t left = drawn & ~mask_bits(depth.exact); left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      const DepthPlane exact = make_depth(orient(triangles[indices[lane]]));
-      gx[k + lane] = static_cast<std::int64_t>(exact.gx), gy[k + lane] = static_cast<std::int64_t>(exact.gy);
-      origin[k + lane] = static_cast<std::int64_t>(exact.origin);
-      zx[k + lane] = static_cast<std::int32_t>(exact.zx), zy[k + lane] = static_cast<std::int32_t>(exact.zy);
+      const int lane = std::countr_zero(left), i = k + lane;
+      const DepthPlane exact = make_depth(orient(task.bins.triangles()[indices[lane]]));
+      gx[i] = bits(exact.gx);
+      origin[i] = bits(exact.origin + exact.gy * (std::uint64_t{bits(row_of_cells)} << kFineBits));
+      zx[i] = bits(exact.zx), zy[i] = bits(exact.zy), z0[i] = bits(exact.at(x0[i] & -kDepthCell, y0[i]));
     }
     return drawn;
   }
+
+ private:
+  // The other signedness.
+  static std::uint32_t bits(std::int32_t v) { return static_cast<std::uint32_t>(v); }
+  static std::uint64_t bits(std::int64_t v) { return static_cast<std::uint64_t>(v); }
+  static std::int32_t bits(std::uint32_t v) { return static_cast<std::int32_t>(v); }
+  static std::int64_t bits(std::uint64_t v) { return static_cast<std::int64_t>(v); }
 };
 
 // Draws a cell's triangles in submission order. A Batch derives from FrameBatch and has set_up(task, indices,

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <type_traits>
 
 #include "core/grid.h"
@@ -24,16 +23,16 @@ using namespace contract;
 // Shifted edge values (rule 5) of a vector of pixels, stepped from row to row. `first`: at the pixels'
 // position 0; a, b: the steps to the right and down.
 //
-// For steps of at most kShort, that is, on the coarse grid always, a first value may be clamped to 2^30. In a
-// depth cell and a vector of pixels beside it, 79 px to the side and 32 down, values change by at most 111 *
-// 2^23 < 2^30, so a clamped one keeps its sign, and does not overflow.
+// For steps of at most kShort, that is, on the coarse grid always, a first value may be clamped to kLimit. In
+// a depth cell and a vector of pixels beside it, 79 px to the side and 32 down, values change by at most 111
+// * 2^23 < 2^30, so a clamped one keeps its sign, and does not overflow.
 constexpr std::int32_t kShort = 2 * Coarse::kGuardSub;
+constexpr std::int64_t kLimit = 1 << 30;
 struct ShortEdge {
   V value, down;
   HWY_INLINE ShortEdge(std::int64_t first, std::int32_t a, std::int32_t b, int px) : down(hn::Set(D{}, b)) {
-    constexpr std::int64_t kLimit = 1 << 30;
-    const auto clamped = static_cast<std::int32_t>(std::clamp(first, -kLimit, kLimit));
-    value = hn::Add(hn::Set(D{}, clamped), hn::Mul(hn::Iota(D{}, px), hn::Set(D{}, a)));
+    value =
+        hn::Add(hn::Set(D{}, static_cast<std::int32_t>(first)), hn::Mul(counting_from(px), hn::Set(D{}, a)));
   }
   HWY_INLINE V sign() const { return value; }
   HWY_INLINE void next() { value = hn::Add(value, down); }
@@ -63,63 +62,73 @@ template <class G>
 struct FrameEdges : FrameBatch {
   struct {
     std::int64_t first[kBatch];         // biased value (rule 4) at the box's first sample
+    std::int32_t clamped[kBatch];       // the same, shifted (rule 5), for ShortEdge
     std::int32_t a[kBatch], b[kBatch];  // steps per sub-unit
   } edge[3];
+  std::uint32_t is_long = 0;  // bit k: triangle k has an edge for LongEdge
 
   HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
     const auto t = load<G>(task.bins.triangles(), indices);
     const BoxLanes in_area(t, task.area);
     const Area area = area_of(t);
+    auto short_edges = hn::FirstN(D{}, kLanes);
     for (int i = 0; i < 3; ++i) {
       const EdgeLanes lanes(t, area, i, sample<G>(in_area.x0), sample<G>(in_area.y0));
+      const V64 limit = hn::Set(D64{}, kLimit), shifted = hn::ShiftRight<G::kSubBits>(lanes.value);
       hn::StoreU(lanes.value, D64{}, edge[i].first + k);
+      store(lower(hn::Min(hn::Max(shifted, hn::Neg(limit)), limit)), edge[i].clamped + k);
       store(lanes.a, edge[i].a + k), store(lanes.b, edge[i].b + k);
+      const V longest = hn::Max(hn::Abs(lanes.a), hn::Abs(lanes.b));
+      short_edges = hn::And(short_edges, hn::Lt(longest, hn::Set(D{}, kShort + 1)));
     }
-    return store_vector(t, in_area, area, task.bins.triangles(), indices, k);
+    if constexpr (std::is_same_v<G, Fine>) is_long |= lower_bits(hn::Not(short_edges)) << k;
+    return store_vector(t, in_area, area, task, indices, k);
   }
 
   HWY_INLINE void draw(const FrameTask& task, int k, const ScreenTriangle& triangle) const {
     count(Part::frame_edges);
     if constexpr (std::is_same_v<G, Fine>)
-      if (!is_short(k)) return draw_pieces<LongEdge>(task, k, triangle.payload);
+      if (is_long >> k & 1) return draw_pieces<LongEdge>(task, k, triangle.payload);
     draw_pieces<ShortEdge>(task, k, triangle.payload);
   }
 
  private:
+  // Draws the parts of the triangle's box that lie in one depth cell (rule 6) each.
   template <class EdgeOfPixels>
   HWY_INLINE void draw_pieces(const FrameTask& task, int k, std::uint32_t payload) const {
-    const PixelBox in_area = box(k);
-    const BoxDepth depth(plane(k), in_area);
-    for (int x = in_area.x0, end; x < in_area.x1; x = end) {
-      end = std::min(in_area.x1, (x & -kDepthCell) + kDepthCell);
-      draw_piece<EdgeOfPixels>(task, k, {x, in_area.y0, end, in_area.y1}, depth, payload);
+    for (int x = x0[k], end; x < x1[k]; x = end) {
+      end = std::min(x1[k], (x & -kDepthCell) + kDepthCell);
+      draw_piece<EdgeOfPixels>(task, k, x, end, payload);
     }
   }
-  bool is_short(int k) const {
-    return std::all_of(edge, edge + 3,
-                       [&](const auto& e) { return std::max(std::abs(e.a[k]), std::abs(e.b[k])) <= kShort; });
-  }
-  // Draws the part of the triangle's box that lies in one depth cell (rule 6), column by column of vectors.
+  // The first value of edge i at pixel x.
   template <class EdgeOfPixels>
-  HWY_INLINE void draw_piece(const FrameTask& task, int k, const PixelBox& piece, const BoxDepth& depth,
-                             std::uint32_t payload) const {
+  HWY_INLINE std::int64_t first_at(int i, int k, int x) const {
+    constexpr bool kClamps = std::is_same_v<EdgeOfPixels, ShortEdge>;
+    if (kClamps && x == x0[k]) return edge[i].clamped[k];
+    const std::int64_t value = (edge[i].first[k] >> G::kSubBits) + std::int64_t{edge[i].a[k]} * (x - x0[k]);
+    return kClamps ? std::clamp(value, -kLimit, kLimit) : value;
+  }
+  // Draws pixels begin … end - 1 of the box's rows, column by column of vectors.
+  template <class EdgeOfPixels>
+  HWY_INLINE void draw_piece(const FrameTask& task, int k, int begin, int end, std::uint32_t payload) const {
     const D d;
-    const V lane = hn::Iota(d, 0), colour = set(payload), z_right = set(depth.zx), z_down = hn::Set(d, zy[k]);
-    const V z_in_cell = set(depth.in_cell(piece.x0, piece.y0)), cell = hn::Set(d, piece.x0 & -kDepthCell);
-    std::int64_t first[3];  // at the piece's first sample
-    for (int i = 0; i < 3; ++i)
-      first[i] = (edge[i].first[k] >> G::kSubBits) + std::int64_t{edge[i].a[k]} * (piece.x0 - x0[k]);
-    for (int x = piece.x0; x < piece.x1; x += kLanes) {
+    const V lane = hn::Iota(d, 0), colour = set(payload), z_right = hn::Set(d, zx[k]),
+            z_down = hn::Set(d, zy[k]);
+    const V z_in_first = set(z_in_cell(k, begin, y0[k])), cell = hn::Set(d, begin & -kDepthCell);
+    std::int64_t first[3];
+    for (int i = 0; i < 3; ++i) first[i] = first_at<EdgeOfPixels>(i, k, begin);
+    for (int x = begin; x < end; x += kLanes) {
       const int at = vector_from(x, task.area.x1);
       const V px = hn::Add(lane, hn::Set(d, at));
-      const auto in_piece = between(x, px, piece.x1);
+      const auto in_piece = between(x, px, end);
       const auto edge_at = [&](int i) {
-        return EdgeOfPixels(first[i], edge[i].a[k], edge[i].b[k], at - piece.x0);
+        return EdgeOfPixels(first[i], edge[i].a[k], edge[i].b[k], at - begin);
       };
       EdgeOfPixels value[3] = {edge_at(0), edge_at(1), edge_at(2)};
-      V z = hn::Add(z_in_cell, hn::Mul(hn::Sub(px, cell), z_right));
-      FrameRow row(task.frame, piece.y0);
-      for (int y = piece.y0; y < piece.y1; ++y) {
+      V z = hn::Add(z_in_first, hn::Mul(hn::Sub(px, cell), z_right));
+      FrameRow row(task.frame, y0[k]);
+      for (int y = y0[k]; y < y1[k]; ++y) {
         const V any_negative = hn::Or(hn::Or(value[0].sign(), value[1].sign()), value[2].sign());
         const auto covered = hn::And(in_piece, hn::Gt(any_negative, hn::Set(d, -1)));
         write(row.depth + at, row.payload + at, covered, z, colour);

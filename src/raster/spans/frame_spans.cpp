@@ -44,19 +44,20 @@ HWY_INLINE void fill_piece(const FrameTask& task, const FrameRow& row, int x, in
 
 // Fills the spans for which for_each(span) calls span(y, begin, end). Those with begin >= end are empty.
 template <typename ForEach>
-HWY_INLINE void fill_spans(const FrameTask& task, const BoxDepth& depth, std::uint32_t payload,
+HWY_INLINE void fill_spans(const FrameTask& task, const FrameBatch& batch, int k, std::uint32_t payload,
                            ForEach&& for_each) {
   count(Part::frame_spans);
+  const auto zx = static_cast<std::uint32_t>(batch.zx[k]);
   for_each([&](int y, int begin, int end) {
     const FrameRow row(task.frame, y);
     for (int x = begin, piece_end; x < end; x = piece_end) {
       const int cell = x & -kDepthCell;
       piece_end = std::min(end, cell + kDepthCell);
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_NEON  // compilers vectorize it: fewer instructions on NEON
-      fill_span(row.depth + cell, row.payload + cell, x - cell, piece_end - cell, depth.in_cell(x, y),
-                depth.zx, payload);
+      fill_span(row.depth + cell, row.payload + cell, x - cell, piece_end - cell, batch.z_in_cell(k, x, y),
+                zx, payload);
 #else
-      fill_piece(task, row, x, piece_end, depth.in_cell(x, y), depth.zx, set(payload));
+      fill_piece(task, row, x, piece_end, batch.z_in_cell(k, x, y), zx, set(payload));
 #endif
     }
   });
@@ -72,12 +73,12 @@ struct FrameSpans : FrameBatch {
     const BoxLanes in_area(t, task.area);
     const Area area = area_of(t);
     flat |= mask_bits(store_lines(t, area, task.area.x0, sample<G>(in_area.y0), line, k)) << k;
-    return store_vector(t, in_area, area, task.bins.triangles(), indices, k);
+    return store_vector(t, in_area, area, task, indices, k);
   }
 
   HWY_INLINE void draw(const FrameTask& task, int k, const ScreenTriangle& triangle) const {
     const PixelBox in_area = box(k);
-    fill_spans(task, BoxDepth(plane(k), in_area), triangle.payload, [&](auto&& span) {
+    fill_spans(task, *this, k, triangle.payload, [&](auto&& span) {
       if (flat >> k & 1)
         for_each_span(orient(triangle), in_area, span);
       else
