@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/random.h"
 #include "edgewise/contract.h"
@@ -185,6 +186,38 @@ TEST(FrontendKernels, StreamsInDoubleAreTheSameOnEveryTargetAndThreadCount) {
   FrontendOptions fine = options;
   fine.subpixel_bits = 15;
   expect_same_triangles(run(stream, fine).triangles, run(exact, fine).triangles, "floats in double");
+}
+
+// Products of such triangles' sides differ by less than doubles of their size can tell.
+TEST(FrontendKernels, SignsOfTheSmallestAreasAreExact) {
+  constexpr std::int64_t kGuard = contract::kGuard_q15;
+  Random random(9);
+  TriangleStream stream{640, 480, {}};
+  while (stream.exact.size() < 1000) {
+    // dx1 dy2 - dx2 dy1 = 1, by Euclid's algorithm.
+    const auto side = [&] { return kGuard + static_cast<std::int64_t>(random.below(kGuard)); };
+    const std::int64_t dx1 = side(), dy1 = side();
+    std::int64_t a = dx1, b = dy1, dy2 = 1, next = 0;
+    while (b != 0) {
+      const std::int64_t quotient = a / b;
+      a = std::exchange(b, a - quotient * b), dy2 = std::exchange(next, dy2 - quotient * next);
+    }
+    if (a != 1) continue;
+    if (dy2 < 0) dy2 += dy1;
+    const std::int64_t dx2 = (dx1 * dy2 - 1) / dy1;
+    const auto vertex = [&](std::int64_t x, std::int64_t y) {
+      return glm::dvec3(std::ldexp(static_cast<double>(x - kGuard), -contract::kFineBits),
+                        std::ldexp(static_cast<double>(y - kGuard), -contract::kFineBits), 0.5);
+    };
+    auto& t = stream.exact.emplace_back();
+    t.vertex[0] = vertex(0, 0), t.vertex[1] = vertex(dx1, dy1), t.vertex[2] = vertex(dx2, dy2);
+    if (stream.exact.size() % 2 == 0) std::swap(t.vertex[1], t.vertex[2]);
+  }
+  for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
+    const FrontendOptions options{.width = 640, .height = 480, .cull = cull, .subpixel_bits = 15};
+    expect_alike(stream, options);
+    EXPECT_EQ(run(stream, options).triangles.size(), cull == Cull::none ? 1000u : 500u);
+  }
 }
 
 // Of positions that floats don't hold.

@@ -203,8 +203,10 @@ TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
   for (const Drawable& drawable : drawables)
     for (std::size_t draws = first++; const auto& how : testing::executions()) {
       const Way& way = ways[draws++ % std::size(ways)];
-      const FrontendOptions options{
-          .width = 150, .height = 90, .cull = how.execution.threads == 2 ? Cull::back : Cull::none};
+      const FrontendOptions options{.width = 150,
+                                    .height = 90,
+                                    .cull = how.execution.threads == 2 ? Cull::back : Cull::none,
+                                    .subpixel_bits = draws % 2 == 0 ? 8 : 15};
       Framebuffer expected(150, 90), actual(150, 90);
       const auto view = [&](Framebuffer& frame) {
         lab::poison(frame);
