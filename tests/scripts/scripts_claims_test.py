@@ -1,0 +1,35 @@
+"""claims.py: README's claims hold on the committed results, and a claim that does not hold is found."""
+import sys
+import unittest
+
+from support import ROOT, SCRIPTS
+
+sys.path.insert(0, str(SCRIPTS / "reporting"))
+import claims  # noqa: E402
+
+
+class ClaimsTest(unittest.TestCase):
+    def test_hold_on_every_machine(self):
+        self.assertEqual(claims.check(), 0)
+
+    def test_faults_are_found(self):
+        says, bounds = "A second core makes frames `1.9×` faster.", {"median(scaling('tiled', 2))": [1.85, 1.95]}
+        page = claims.plain("A second core makes\nframes [1.9×](results) faster.")
+
+        def found(claim, values):
+            return list(claims.faults({"says": says, "bounds": bounds, "machines": 2} | claim, values, page))
+
+        good, bad = ({expression: value for expression in bounds} for value in (1.9, 1.96))
+        self.assertEqual(found({}, {"a": good, "b": good}), [])
+        self.assertIn("b: median", *found({}, {"a": good, "b": bad}))
+        self.assertIn("not on 2", *found({}, {"a": good}))
+        self.assertIn("not name", *found({"machines": 1}, {"a": good}))
+        self.assertIn("not in README", *found({"says": "A second core doubles the speed."}, {"a": good, "b": good}))
+
+    def test_a_folder_without_rows_does_not_count(self):
+        claim = {"bounds": {"max(ratios('swiftshader', 'tiled', 2))": [0, 99]}}
+        self.assertEqual(list(claims.evaluated(claim, ROOT / "results")), ["amd-epyc-family-25-model-1-2-cores"])
+
+
+if __name__ == "__main__":
+    unittest.main()
