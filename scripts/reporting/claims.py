@@ -4,7 +4,7 @@ import tomllib
 from pathlib import Path
 
 from bench_rows import read_bench
-from factors import gains
+from factors import cells, chosen, gains
 from noise import median
 from program import ROOT, BadInput, read_json
 
@@ -36,13 +36,21 @@ def of_machine(bench):
         """The median speed-ups of these factors with SIMD, one per fill, traversal or kind of scene."""
         return timed(gain.median for gain in gains(bench) if gain.simd and gain.factor in names)
 
+    def bands(threads, scenes):
+        """The speed-ups of `tiled` over the fastest cell with SIMD in bands, one per scene."""
+        found = {}
+        for cell, row in chosen(cells(bench), simd=True, traversal="bands", threads=threads).items():
+            found[cell.scene] = min(row.median_ms, found.get(cell.scene, row.median_ms))
+        frames = {scene: bench.frame("tiled", scene, threads) for scene in found if scene in scenes}
+        return timed(found[scene] / row.median_ms for scene, row in frames.items() if row)
+
     def timed(values):
         found = list(values)
         if not found:
             raise NotTimed
         return found
 
-    return {"ratios": ratios, "scaling": scaling, "factor": factor}
+    return {"ratios": ratios, "scaling": scaling, "factor": factor, "bands": bands}
 
 
 def of_facts(folder):
