@@ -19,7 +19,7 @@ def said(example, folder):
 
 
 def test_the_example_draws_a_file(tmp_path):
-    assert said("picture.py", tmp_path) == "2 of 3 triangles are visible\n"
+    assert said("picture.py", tmp_path) == ""
     shown = edgewise.read_image(tmp_path / "mesh.png") != edgewise.BLACK
     assert shown.shape == (360, 640)
     assert 0 < shown.sum() < shown.size
