@@ -55,10 +55,8 @@ struct Row {
   std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
   std::map<std::string, double> events;             // of counted_frames frames, by the counter's name
   double counted_frames = 0.0;
-  bool wants_cost = false;
   double many_rounds_up_to_s = 0.0;  // a shorter draw is repeated more often than other rows are
   double once_s = 0.0;               // duration of the compared draw
-  std::optional<FrameCost> cost;     // if wants_cost
   std::uint64_t depth_ties = 0;      // peers: depth ties within tolerance, px
   // If the row may draw another picture: pixels of another colour; peers: that show another triangle.
   std::optional<std::uint64_t> wrong_px;

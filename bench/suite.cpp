@@ -77,7 +77,6 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : options_.threads) {
         add(workload, Timed::raster, backend, name, threads);
-        rows_.back().wants_cost = backend.name == "tiled";
         add_frame(workload, backend, name, threads);
       }
     for (const SimdTarget target : supported_targets())

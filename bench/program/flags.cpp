@@ -72,8 +72,6 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
       ->type_name("FILE");
-  parser.add_option("--model_out", flags.model_out, "Write the cost model's estimates to this file")
-      ->type_name("FILE");
   parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
   parser.footer(
       "Google Benchmark's other flags work too, for example --benchmark_filter=REGEX,\n"

@@ -354,22 +354,6 @@ void add_context(const Flags& flags, std::span<const Row> rows, std::span<const 
                               error.empty() ? "available" : fmt::format("not available ({})", error));
 }
 
-// The cost model's parts, one line per row.
-std::string model_json(std::span<const Row> rows) {
-  constexpr double kMs = 1e3;
-  std::string lines;
-  for (const Row& row : rows) {
-    if (!row.cost || !row.error.empty()) continue;
-    const auto& [blocks, read_s, blocks_s, write_s, tiles_s] = *row.cost;
-    const nlohmann::ordered_json parts{
-        {"name", row.name},         {"covered_blocks", blocks.covered}, {"won_blocks", blocks.won},
-        {"read_ms", read_s * kMs},  {"blocks_ms", blocks_s * kMs},      {"write_ms", write_s * kMs},
-        {"tiles_ms", tiles_s * kMs}};
-    lines += (lines.empty() ? "\n" : ",\n") + tools::json_text(parts);
-  }
-  return "{\n\"costs\": [" + lines + "\n]\n}\n";
-}
-
 int run(int argc, char** argv) {
   const auto parsed = parse_flags(argc, argv);
   if (!parsed) return 0;
@@ -377,7 +361,6 @@ int run(int argc, char** argv) {
   initialize_benchmark(flags);
   std::vector<tools::Output> files;
   if (!flags.out.empty()) files.push_back({"--benchmark_out", flags.out});
-  if (!flags.model_out.empty()) files.push_back({"--model_out", flags.model_out});
   std::vector<std::string> inputs = flags.suite.scenes;
   inputs.insert(inputs.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
   std::vector<std::string> read = inputs;
@@ -385,8 +368,6 @@ int run(int argc, char** argv) {
   tools::check_files(files, read);
   std::optional<AtomicFile> out;
   if (!flags.out.empty()) out.emplace(flags.out);
-  std::optional<AtomicFile> model_out;
-  if (!flags.model_out.empty()) model_out.emplace(flags.model_out);
   auto selected = select(make_suite(flags.suite));
   if (!selected) return 2;
   if (selected->empty()) return 0;
@@ -394,7 +375,7 @@ int run(int argc, char** argv) {
 
   leave_out_missing_peers(rows, flags.suite.all_peers);
   if (rows.empty()) return 2;
-  Stage stage(!flags.model_out.empty());
+  Stage stage;
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
   add_context(flags, rows, inputs);
@@ -407,10 +388,6 @@ int run(int argc, char** argv) {
   if (out) {
     out->stream() << reporter.json();
     out->commit();
-  }
-  if (model_out) {
-    model_out->stream() << model_json(rows);
-    model_out->commit();
   }
   return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
 }

@@ -3,7 +3,7 @@ import noise
 from bench_rows import describe_machine, gained, gained_interval, order, read_bench
 from factors import duels
 from program import read_json
-from tables import VECTORS, about, enumerated, gain, milliseconds, number, percent, short, speed_up, with_width
+from tables import VECTORS, about, gain, milliseconds, number, percent, short, speed_up, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -42,12 +42,11 @@ def scene_facts(bench, scene):
 
 def scene_table(bench):
     """Header and lines: a line per scene, with a backend's ms on each number of threads in one cell."""
-    modelled = list(dict.fromkeys(row.backend for row in bench.rows.values() if estimates_ms(bench, row)))
-    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), *(f"{b} / estimate" for b in modelled), "fastest"]
+    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), "fastest"]
     lines = []
     for scene in bench.scenes:
         times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in bench.threads) for b in bench.backends]
-        lines.append([scene, *scene_facts(bench, scene), *times, *(over_estimate(bench, b, scene) for b in modelled), fastest(bench, scene)])
+        lines.append([scene, *scene_facts(bench, scene), *times, fastest(bench, scene)])
     return header, lines
 
 
@@ -179,48 +178,6 @@ def peer_tables(bench, layout):
         told.append(f"{peer} ({bench.context.get(peer, 'unknown version')}), on {' / '.join(map(str, THREADS))} threads; pictures differ in "
                     f"at most {most:,.0f} pixels, all {why}:\n\n{layout(*peer_table(bench, peer))}")
     return "\n\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
-
-
-# Scenes of few large triangles, on which the estimate comes near the measured time.
-DETAILED = ("large", "grid64")
-
-
-def estimates_ms(bench, row):
-    """Three estimates: drawing only the blocks in which a triangle is visible, drawing all covered blocks, and the first
-    with the frame stored tile by tile from a buffer. None if the row has no model."""
-    c = bench.costs.get(row.name) if row else None
-    if not c:
-        return None
-    covered = c["blocks_ms"] * c["covered_blocks"] / c["won_blocks"] if c["won_blocks"] else 0.0
-    return (c["read_ms"] + c["blocks_ms"] + c["write_ms"], c["read_ms"] + covered + c["write_ms"],
-            c["read_ms"] + c["blocks_ms"] + c["tiles_ms"])
-
-
-def over_estimate(bench, backend, scene):
-    """A backend's time over the estimate for tile stores, for each thread count."""
-    rows = [row for n in THREADS if (row := bench.find(f"{backend}/{scene}/threads:{n}"))]
-    found = [row.median_ms / estimates[2] for row in rows if (estimates := estimates_ms(bench, row))]
-    return " / ".join(f"{ratio:.2f}" for ratio in found) or "–"
-
-
-def cost_model_table(bench):
-    """Header and lines: the parts of the estimate for the rows on one thread."""
-    lines = []
-    for backend in bench.backends:
-        for scene in DETAILED:
-            row = bench.find(f"{backend}/{scene}/threads:1")
-            if estimates := estimates_ms(bench, row):
-                parts = (bench.costs[row.name][part] for part in ("read_ms", "blocks_ms", "write_ms"))
-                lines.append([f"`{scene}`, {backend}", milliseconds(row), *map(number, (*parts, *estimates))])
-    return ["1 thread, ms", "measured", "1. read", "2. blocks", "3. write", "estimate", "all covered blocks", "tile by tile"], lines
-
-
-def write_speed_sentence(bench):
-    """How fast whole frames of a mostly empty picture are written, relative to writing the frame only."""
-    scene = "cube"
-    shares = [f"{percent(cost['write_ms'] / frame.median_ms)} ({n} thread{'s' * (n > 1)})" for n in THREADS
-              if (cost := bench.costs.get(f"{OURS}/{scene}/threads:{n}")) and (frame := bench.frame(OURS, scene, n))]
-    return f"`{scene}` is mostly empty: its whole frames in `{OURS}` reach {enumerated(shares)} of the write speed of part 3." if shares else NOT_TIMED
 
 
 # The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal.

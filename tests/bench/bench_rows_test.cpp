@@ -14,12 +14,10 @@
 #include <string>
 #include <thread>
 
-#include "bench/models/cost_model.h"
 #include "bench/suite.h"
 #include "bench/workloads/events.h"
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
-#include "edgewise/contract.h"
 #include "lab/engine/engine.h"
 #include "message_of.h"
 #include "run_program.h"
@@ -448,56 +446,6 @@ TEST(BenchProgram, PausesAreMadeButNotTimed) {
   EXPECT_LT(fastest_ms, 2.0);
 }
 
-// The right angle lies in the image's upper left corner.
-ScreenTriangle right_triangle(int legs_px, std::uint32_t z) {
-  const std::int32_t legs = legs_px * contract::kPixel_q15;
-  return {{0, legs, 0}, {0, 0, legs}, {z, z, z}, 0};
-}
-
-TEST(CostModel, CountsABlockOncePerTriangleThatWinsAPixel) {
-  // Legs of 8 px cover blocks (0,0), (1,0) and (0,1), legs of 12 px six blocks.
-  const ScreenTriangle near_small = right_triangle(8, 5000), far_large = right_triangle(12, 6000);
-  const ScreenTriangle order[2][2] = {{near_small, far_large}, {far_large, near_small}};
-  const BlockCounts near_first = count_blocks(order[0], 16, 16), far_first = count_blocks(order[1], 16, 16);
-  EXPECT_EQ(near_first.covered, 9u);
-  EXPECT_EQ(far_first.covered, 9u);
-  // The near triangle occludes the far one in all of block (0,0), but only in parts of (1,0) and (0,1).
-  EXPECT_EQ(near_first.won, 8u);
-  EXPECT_EQ(far_first.won, 9u);
-}
-
-TEST(CostModel, CountsTheBlocksThatTheReferenceDraws) {
-  // One triangle per draw, so that it won exactly the blocks that are not background.
-  SceneRequest request;
-  request.width = 173;
-  request.height = 91;
-  const Drawable stream = random_stream(request, 20, 900.0, 0.0, 5);
-  Frontend frontend;
-  for (const ScreenTriangle& triangle : frontend.run(stream, {})) {
-    Framebuffer frame(request.width, request.height);
-    backends().front().make()->draw({&triangle, 1}, frame.view());
-    std::set<std::pair<int, int>> blocks;
-    for (int y = 0; y < request.height; ++y)
-      for (int x = 0; x < request.width; ++x)
-        if (frame.depth_row(y)[x] != contract::kDepthClear) blocks.insert({x / 4, y / 4});
-    const BlockCounts counts = count_blocks({&triangle, 1}, request.width, request.height);
-    EXPECT_EQ(counts.won, blocks.size());
-    EXPECT_EQ(counts.covered, blocks.size());
-  }
-}
-
-TEST(CostModel, AddsMeasuredPartsAndScalesWithBlocks) {
-  const std::vector<ScreenTriangle> triangles(1000, right_triangle(8, 5000));
-  Framebuffer frame(64, 64);
-  CostModel model;
-  const FrameCost few = model.estimate(triangles, {1000, 1000}, frame, 1);
-  const FrameCost many = model.estimate(triangles, {2000, 2000}, frame, 1);
-  EXPECT_GT(few.read_s, 0.0);
-  EXPECT_GT(few.write_s, 0.0);
-  EXPECT_DOUBLE_EQ(many.blocks_s, 2 * few.blocks_s);
-  EXPECT_DOUBLE_EQ(many.write_s, few.write_s);
-}
-
 TEST(RandomReads, ReadAllLinesBeforeOneIsReadAgain) {
   for (const std::size_t bytes : {std::size_t{0}, std::size_t{64}, std::size_t{128}, std::size_t{1} << 16}) {
     RandomReads reads(bytes);
@@ -508,32 +456,6 @@ TEST(RandomReads, ReadAllLinesBeforeOneIsReadAgain) {
     EXPECT_EQ(*seen.rbegin(), reads.lines() - 1);
     EXPECT_EQ(reads.advance(reads.lines()), 0u);
   }
-}
-
-TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
-  const auto workload = cube();
-  Stage stage;
-  Row with = row_of(backends()[0], workload), without = with;
-  with.wants_cost = true;
-  stage.compare(with);
-  stage.compare(without);
-  ASSERT_TRUE(with.cost.has_value());
-  EXPECT_EQ(with.cost->blocks.won, workload->blocks().won);
-  EXPECT_GT(with.cost->blocks_s, 0.0);
-  EXPECT_GT(with.cost->tiles_s, 0.0);
-  EXPECT_FALSE(without.cost.has_value());
-  EXPECT_EQ(with.error, "");
-}
-
-TEST(BenchProgram, WritesTheCostModelsPartsOfTheRowsThatHaveThem) {
-  const auto costs = written("model_out",
-                             "--scene=cube --size 64x64 --benchmark_min_time=0.001 "
-                             "--benchmark_repetitions=1 --benchmark_filter=d/cube/threads:1")["costs"];
-  ASSERT_EQ(costs.size(), 1u) << "of tiled, not of the front end";
-  EXPECT_EQ(costs[0]["name"], "tiled/cube/threads:1");
-  EXPECT_GT(costs[0]["won_blocks"], 0);
-  EXPECT_GE(costs[0]["covered_blocks"], costs[0]["won_blocks"]);
-  for (const char* part : {"read_ms", "blocks_ms", "write_ms", "tiles_ms"}) EXPECT_GT(costs[0][part], 0.0);
 }
 
 }  // namespace

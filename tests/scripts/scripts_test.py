@@ -18,11 +18,6 @@ FAMILIES = ("coverage", "visibility", "facing", "clipping")
 COUNTERS = {"triangles": 12.0, "covered_px": 1e6, "overdraw": 0.5, "width": 1920.0, "height": 1080.0}
 
 
-# 100 blocks won of 400 covered: with all drawn the estimate is 2.6, with tiles copied to the frame 1.8.
-FLOOR = {"floor_ms": 1.4, "floor_read_ms": 0.1, "floor_blocks_ms": 0.4, "floor_write_ms": 0.9, "won_blocks": 100.0,
-         "covered_blocks": 400.0, "floor_tiles_ms": 1.3, "floor_in_tiles_ms": 1.8}
-
-
 def entries(name, times_ms, **counters):
     return [{"name": name, "run_name": name, "run_type": "iteration", "real_time": t, "time_unit": "ms",
              **COUNTERS, **counters} for t in times_ms]
@@ -57,9 +52,7 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
     rows = entries("frontend/cube/threads:1", [0.5])
     for backend, times in (("slow", slow), ("tiled", tiled)):
         for threads in (1, 2):
-            floor = {key: value / threads for key, value in FLOOR.items()} if backend == "tiled" else {}
-            rows += entries(f"{backend}/large/threads:{threads}", [t / threads for t in times], **floor) if floor else []
-            rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times], **floor)
+            rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times])
             for area, factor in ((1, 0.1 if backend == "slow" else 1), (100, 1), (10000, 1)):
                 rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
         for threads in (1, 2):
@@ -72,17 +65,6 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
             for keys, factor in (("/stores:streaming", 2), ("/pause:2ms", 3), ("/pause:2ms/stores:streaming", 1.5)):
                 rows += entries(f"tiled+frontend/cube{keys}/threads:2", [t * factor for t in times])
     return {"context": {"backends": "slow tiled", "machine": "test", "rounds": "5", "simd_target": "avx2"}, "benchmarks": rows + cells() + methods()}
-
-
-def timed_and_model(data):
-    """bench.json and model.json from rows that hold the estimates as well."""
-    rows = data["benchmarks"]
-    costs = {row["name"]: row for row in rows if "floor_ms" in row}
-    model = {"costs": [{"name": name, "covered_blocks": row["covered_blocks"], "won_blocks": row["won_blocks"],
-                        **{f"{part}_ms": row[f"floor_{part}_ms"] for part in ("read", "blocks", "write", "tiles")}}
-                       for name, row in costs.items()]}
-    timed = [{key: value for key, value in row.items() if key not in FLOOR} for row in rows]
-    return {**data, "benchmarks": timed}, model
 
 
 def accuracy():
@@ -172,8 +154,7 @@ class ScriptsTest(FolderTest):
 
     def write(self, name, benchmark):
         """The folder of such results, which replace others."""
-        timed, model = timed_and_model(benchmark)
-        for file, data in (("bench", timed), ("model", model), ("machine", MACHINE), ("verify", VERIFY)):
+        for file, data in (("bench", benchmark), ("machine", MACHINE), ("verify", VERIFY)):
             self.file(f"{name}/{file}.json", json.dumps(data))
         return self.folder / name
 
@@ -239,22 +220,13 @@ class ScriptsTest(FolderTest):
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         text = readme.read_text()
-        self.assertIn("| cube | 12 | 0.50 | 10.1 / 5.05 | 2.10 / 1.05 | 1.17 / 1.17 | tiled, 4.9× |", text)
+        self.assertIn("| cube | 12 | 0.50 | 10.1 / 5.05 | 2.10 / 1.05 | tiled, 4.9× |", text)
         self.assertIn("Hand-written.", text)
         self.assertIn("no bit differs", text)
         self.assertNotIn("old", text)
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
         readme.write_text(text.replace("10.1", "10.0"))
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
-
-    def test_the_cost_model_is_told_by_its_parts(self):
-        self.assertIn("| `large`, tiled | 2.10 | 0.1 | 0.4 | 0.9 | 1.4 | 2.6 | 1.8 |\n", self.filled("cost_model"))
-
-    def test_the_share_of_the_write_speed_is_told_where_both_were_timed(self):
-        self.assertIn("`cube` is mostly empty: its whole frames in `tiled` reach 43 % (1 thread) and 43 % (2 threads) of the write speed of part 3.\n",
-                      self.filled("write_speed"))
-        self.write("few", {**bench(), "benchmarks": entries("tiled/cube/threads:1", [1.0], **FLOOR)})
-        self.assertIn("hold none of the rows", self.filled("write_speed", results="few"))
 
     def test_random_reads_show_whose_the_last_cache_was(self):
         benchmark = bench()
@@ -387,10 +359,6 @@ class ScriptsTest(FolderTest):
         self.assertIn("The first frame takes 9.6 bytes per pixel plus 0 per triangle, at most 60% of what", text)
         self.write("few", {**bench(), "benchmarks": entries("tiled/cube/threads:1", [1.0])})
         self.assertEqual(self.filled("small_draws", "tile_stores", results="few").count("hold none of the rows"), 2)
-
-    def test_a_broken_cost_model_is_bad_input(self):
-        (self.write("apart", bench()) / "model.json").write_text('{"costs": [{"name": "x"}]}')
-        self.fails(run("compare", self.results, self.folder / "apart"), "model.json: not what 'edgewise_bench --model_out' writes")
 
     def test_plot_draws_the_same_bytes_twice(self):
         self.add_facts()
