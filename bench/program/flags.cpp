@@ -77,8 +77,6 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       "Google Benchmark's other flags work too, for example --benchmark_filter=REGEX,\n"
       "--benchmark_list_tests, --benchmark_repetitions=N, --benchmark_min_time=SECONDS and\n"
       "--benchmark_format=console|json|csv.\n"
-      "With every filter, random reads are timed between the rows. They show whether other processes\n"
-      "filled the last-level cache.\n"
       "Exit status: 0 done, 1 a row drew wrong pixels, 2 bad input or failure, 130 after Ctrl-C.\n"
       "If a reader such as `head` closes standard output early, that is no error.");
   try {

@@ -17,7 +17,6 @@
 #include "bench/program/reporter.h"
 #include "bench/workloads/events.h"
 #include "bench/workloads/memory.h"
-#include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "core/parallel.h"
 #include "files/atomic_file.h"
@@ -273,32 +272,9 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, int
   }
 }
 
-using RandomReadRow = std::pair<ReadRow, std::shared_ptr<RandomReads>>;
-
-// Registered whatever the filter: they show how fast the machine's caches were while the rows were timed.
-void register_random_reads(std::span<const RandomReadRow> rows) {
-  constexpr std::size_t kReads = 10'000;
-  constexpr int kIterations = 5;
-  for (const auto& [row, reads] : rows)
-    benchmark::RegisterBenchmark(
-        row.name.data(),
-        [reads = reads, row = row](benchmark::State& state) {
-          if (row.fits_cache) benchmark::DoNotOptimize(reads->advance(reads->lines()));  // refills the cache
-          for (auto _ : state) benchmark::DoNotOptimize(reads->advance(kReads));
-          state.counters["reads"] = kReads;
-          state.counters["bytes"] = static_cast<double>(row.bytes);
-        })
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime()
-        ->Iterations(kIterations);
-}
-
 // In each round rows are timed once, in random order: repetition i of one row and of another form a pair.
 void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter& reporter) {
   tools::Progress progress;
-  std::vector<RandomReadRow> reads;
-  for (const ReadRow& row : random_read_rows())
-    reads.emplace_back(row, std::make_shared<RandomReads>(row.bytes));
   int most_rounds = 1, made = 0, all = 0;
   for (const Row& row : rows) {
     most_rounds = std::max(most_rounds, rounds_of(row, flags));
@@ -313,7 +289,6 @@ void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter
     if (flags.suite.quick && !flags.repetitions && round >= kRounds && spent.count() > kQuickRounds_s) break;
     benchmark::ClearRegisteredBenchmarks();
     register_rows(rows, stage, flags, round, begin);
-    register_random_reads(reads);
     benchmark::RunSpecifiedBenchmarks(&reporter, ".");
   }
 }
@@ -381,7 +356,6 @@ int run(int argc, char** argv) {
   add_context(flags, rows, inputs);
   std::vector<std::string> names;
   for (const auto& row : rows) names.push_back(row.name);
-  for (const auto& row : random_read_rows()) names.emplace_back(row.name);
   Reporter reporter(names);
   time_all(rows, stage, flags, reporter);
   reporter.finish();

@@ -2,7 +2,7 @@
 
 A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
 BACKEND+frontend, "cell" for a whole frame of factors.py, "lab" for a method of the laboratory, or "needs" for a pipeline
-of it. Rows random_read/WHERE measure the machine and draw nothing.
+of it. Older results have rows random_read/WHERE, too, which measure the machine and draw nothing.
 """
 import os
 from dataclasses import dataclass, field
@@ -82,7 +82,6 @@ def parse_name(name):
 class Bench:
     context: dict
     rows: dict  # by name
-    random_reads: dict = field(default_factory=dict)  # rows that measure the machine, by what is read
 
     @property
     def backends(self):
@@ -161,8 +160,7 @@ def read_bench(folder_or_file):
     rounds = int(context.get("rounds", 0))  # of most rows; older runs shuffled all repetitions
     for row in rows.values():
         row.rounds = 0 < rounds <= len(row.times_ms)
-    reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
-    return Bench(context, rows, reads)
+    return Bench(context, {name: row for name, row in rows.items() if row.backend != "random_read"})
 
 
 def describe_machine(machine):

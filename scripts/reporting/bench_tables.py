@@ -11,15 +11,6 @@ OURS = "tiled"  # the backend that represents ours
 GPU = "gpu"  # the peer that has no number of threads
 
 
-def random_reads(bench):
-    """[(where, "140 ns (130 to 168)")]: whether other processes filled the last-level cache; empty if not measured."""
-    rows = [(title, bench.random_reads.get(where)) for where, title in
-            (("half_last_cache", "half the last-level cache"), ("memory", "a far larger buffer"))]
-    return [(title, "{1:.0f} ns ({0:.0f} to {2:.0f})".format(*(ms * 1e6 / row.counters["reads"] for ms in
-                                                              (min(row.times_ms), row.median_ms, max(row.times_ms)))))
-            for title, row in rows if row]
-
-
 def fastest(bench, scene):
     """The fastest backend on the most threads, with its speed-up over the next; several if the order is not settled."""
     rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{bench.threads[-1]}"))]

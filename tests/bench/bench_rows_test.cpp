@@ -16,7 +16,6 @@
 
 #include "bench/suite.h"
 #include "bench/workloads/events.h"
-#include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "lab/engine/engine.h"
 #include "message_of.h"
@@ -370,7 +369,7 @@ TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
                             "'--benchmark_filter=^(tiled/cube|lab/edge_on_faces/.*normal_z.*)/threads:1$'");
   for (const auto& entry : json["benchmarks"])
     if (entry["run_type"] == "iteration") ++times[entry["name"]];
-  EXPECT_EQ(times.size(), 4u) << "with two rows of random reads";
+  EXPECT_EQ(times.size(), 2u);
   for (const auto& [name, count] : times) EXPECT_EQ(count, 9) << name;
 }
 
@@ -444,18 +443,6 @@ TEST(BenchProgram, PausesAreMadeButNotTimed) {
   EXPECT_GT(frames, 0.0);
   EXPECT_GT(elapsed.count(), 2.0 * frames);
   EXPECT_LT(fastest_ms, 2.0);
-}
-
-TEST(RandomReads, ReadAllLinesBeforeOneIsReadAgain) {
-  for (const std::size_t bytes : {std::size_t{0}, std::size_t{64}, std::size_t{128}, std::size_t{1} << 16}) {
-    RandomReads reads(bytes);
-    EXPECT_EQ(reads.lines(), std::max<std::size_t>(1, bytes / 64));
-    std::set<std::uint64_t> seen;
-    for (std::size_t i = 0; i < reads.lines(); ++i) seen.insert(reads.advance(1));
-    EXPECT_EQ(seen.size(), reads.lines());
-    EXPECT_EQ(*seen.rbegin(), reads.lines() - 1);
-    EXPECT_EQ(reads.advance(reads.lines()), 0u);
-  }
 }
 
 }  // namespace

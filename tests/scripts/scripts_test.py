@@ -188,6 +188,13 @@ class ScriptsTest(FolderTest):
         self.assertIn(" 0 faster", result.stdout)
         self.assertRegex(result.stdout, r"\nGeometric means of the ratios: [^\n]+, tiled 1\.476, all 1\.\d+\n$")
 
+    def test_rows_of_older_results_that_draw_nothing_are_left_out(self):
+        older = bench()
+        older["benchmarks"] += entries("random_read/memory", [1.8], reads=10e3)
+        result = run("compare", "--all", self.results, self.write("older", older))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("random_read/", result.stdout)
+
     def test_compare_sets_other_work_apart(self):
         data = bench()
         for row in data["benchmarks"]:
@@ -227,15 +234,6 @@ class ScriptsTest(FolderTest):
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
         readme.write_text(text.replace("10.1", "10.0"))
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
-
-    def test_random_reads_show_whose_the_last_cache_was(self):
-        benchmark = bench()
-        for where, times in (("half_last_cache", (0.14, 1.6, 0.15)), ("memory", (1.8, 1.7, 1.9))):
-            benchmark["benchmarks"] += entries(f"random_read/{where}", times, reads=10e3)
-        self.write("results", benchmark)
-        self.assertIn("| half the last-level cache | 15 ns (14 to 160) |\n| a far larger buffer | 180 ns (170 to 190) |\n",
-                      self.filled("random_reads"))
-        self.assertNotIn("random_read/", run("compare", "--all", self.results, self.results).stdout)
 
     def test_readme_compares_machines_by_how_long_peers_take(self):
         self.write("results/mine", bench_with_peer())
