@@ -12,7 +12,6 @@
 #include "bench/workloads/pipelines.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
-#include "raster/traversals.h"
 
 namespace edgewise::bench {
 
@@ -47,9 +46,7 @@ struct Row {
   std::string peer_version;   // empty: it did not start
   bool device_clock = false;  // a peer's frame by its device's clock
   Execution execution;
-  TileOptions tiles{};
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
-  double pause_s = 0.0;                             // before each frame, not timed
   std::optional<FirstFrame> first_frame;            // if measured
   bool keeps_frames = false;                        // whether the duration of each frame is kept
   std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
@@ -68,11 +65,9 @@ inline bool is_cell(const Row& row) {
   return row.name.starts_with("cell/");
 }
 
-// Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
-// pauses.
+// Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target.
 inline bool is_plain(const Row& row) {
-  return !is_cell(row) && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
-         row.tiles == TileOptions{};
+  return !is_cell(row) && row.execution.target == SimdTarget::best;
 }
 
 }  // namespace edgewise::bench

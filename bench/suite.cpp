@@ -19,7 +19,6 @@ namespace {
 
 constexpr int kThreads[] = {1, 2};  // of all rows but a scene's frames, which may have more
 constexpr int kCullThreads = 2;
-constexpr int kPause_ms = 2;
 // The backends whose whole frames are compared by resolution, and how long a frame may take to be repeated as
 // often as cells are.
 constexpr std::string_view kByResolution[] = {"scanline", "tiled"};
@@ -133,25 +132,6 @@ class Suite {
     for (const auto& [name, arithmetic] : kArithmetics) {
       add(workload, Timed::raster, find_backend("tiled"), fmt::format("{}/engine:{}", scene, name), 1);
       rows_.back().arithmetic = arithmetic;
-    }
-  }
-
-  // Back to back, a frame may find its memory in the LLC. In a pause, other processes may fill the LLC.
-  void add_tile_stores(const WorkloadPtr& workload, const std::string& scene) {
-    constexpr std::string_view kScenes[] = {"cube", "sphere", "large", "grid64"};
-    if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
-    const auto add_stores = [&](int threads, int pause_ms, bool streaming) {
-      std::string what = scene;
-      if (pause_ms > 0) what += fmt::format("/pause:{}ms", pause_ms);
-      if (streaming) what += "/stores:streaming";
-      add(workload, Timed::frame, find_backend("tiled"), what, threads);
-      rows_.back().pause_s = 1e-3 * pause_ms;
-      if (streaming) rows_.back().tiles.tile_store = TileStore::streaming;
-    };
-    for (const int threads : kThreads) {
-      add_stores(threads, 0, true);
-      add_stores(threads, kPause_ms, false);
-      add_stores(threads, kPause_ms, true);
     }
   }
 
@@ -363,7 +343,6 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
     suite.add_engine_runs(workload, name);
-    suite.add_tile_stores(workload, name);
     if (!scene.stream)
       suite.add_sizes(name, [&](int width, int height) { return suite.scene_workload(name, width, height); });
   }

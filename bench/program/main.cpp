@@ -147,15 +147,6 @@ void leave_out_slow_frames(std::vector<Row>& rows) {
   });
 }
 
-// Keeps all threads of the row awake, so that only the caches differ from frames back to back.
-void pause_before(const Row& row) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(row.pause_s);
-  parallel_for(row.execution.threads, row.execution.threads, [end](int) {
-    while (std::chrono::steady_clock::now() < end) {
-    }
-  });
-}
-
 // Rows that are not repeated: wrong ones, and those that the comparison has already timed.
 bool is_known(const Row& row) {
   return !row.error.empty() || (row.once_s > kTooSlowToRepeat_s && !is_cell(row));
@@ -207,11 +198,6 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
     if (stage.renew_memory(row) || row.once_s < kRepetition_s) stage.work(row);
     if (counts_events(row)) add_events(row, -1.0);
     for (auto _ : state) {
-      if (row.pause_s > 0.0) {
-        state.PauseTiming();
-        pause_before(row);
-        state.ResumeTiming();
-      }
       const double frame_s = stage.timed_work_s(row);
       if (row.device_clock) state.SetIterationTime(frame_s);
       if (row.keeps_frames) row.frames_s.push_back(frame_s);

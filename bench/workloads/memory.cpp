@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::bench {
 
@@ -39,7 +38,7 @@ FirstFrame draw_first_frame(const Row& row) {
   {
     Frontend frontend;
     Framebuffer frame(workload.width(), workload.height());
-    workload.draw(frontend, *lab::make(*row.backend, row.tiles), frame.view(), row.execution);
+    workload.draw(frontend, *row.backend->make(), frame.view(), row.execution);
     first.s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   const auto peak = status_bytes("VmHWM:");

@@ -34,7 +34,7 @@ Framebuffer& Stage::frame(const Row& row) {
 }
 
 Backend& Stage::backend(const Row& row) {
-  if (!row.arithmetic) return backends_.get(*row.backend, row.tiles);
+  if (!row.arithmetic) return backends_.get(*row.backend, {});
   auto& engine = engines_[*row.arithmetic];
   if (!engine) engine = lab::make_engine(*row.arithmetic);
   return *engine;

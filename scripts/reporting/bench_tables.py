@@ -3,7 +3,7 @@ import noise
 from bench_rows import describe_machine, gained, gained_interval, order, read_bench
 from factors import duels
 from program import read_json
-from tables import VECTORS, about, gain, milliseconds, number, percent, short, speed_up, with_width
+from tables import VECTORS, about, gain, milliseconds, number, percent, short, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -259,28 +259,6 @@ def power_sentence(bench):
     needed = noise.rounds_for(compared, TRUE_RATIO, WANTED_POWER) or f"more than {noise.MOST_ROUNDS}"
     return (f"{rounds} rounds settle a true {TRUE_RATIO}× between bands and tiles in {percent(noise.power(compared, TRUE_RATIO, rounds))} of cases, "
             f"{needed} rounds in {percent(WANTED_POWER)}, simulated with their noise.")
-
-
-def store_cells(rule, streaming):
-    """The two times; behind the second, the speed-up of streaming over the rule."""
-    ms = milliseconds(streaming)
-    if rule and streaming:
-        settled = order(rule, streaming) != 0
-        ms += f" ({speed_up(gained(rule, streaming))})" if settled else " (not settled)"
-    return [milliseconds(rule), ms]
-
-
-def tile_stores_table(bench):
-    """Header and lines; no lines if the rows were not timed."""
-    def find(row, keys):
-        return bench.frame(row.backend, row.scene + keys, row.threads)
-
-    streaming = "/stores:streaming"
-    paused = [row for row in bench.sweep("pause") if "stores" not in row.keys]
-    lines = [[row.scene, str(row.threads), *store_cells(find(row, ""), find(row, streaming)),
-              *store_cells(row, find(row, f"/pause:{row.keys['pause']}{streaming}"))] for row in paused]
-    after = f"after {paused[0].keys['pause'].replace('ms', ' ms')}" if paused else "after a pause"
-    return ["scene", "threads", "back to back: rule, ms", "streaming, ms", f"{after}: rule, ms", "streaming, ms"], lines
 
 
 def other_folders(folder):

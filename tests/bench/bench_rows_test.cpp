@@ -1,11 +1,9 @@
-// The benchmark's rows have different names, rows that draw wrong pixels are never timed, and pauses are not
-// timed.
+// The benchmark's rows have different names, and rows that draw wrong pixels are never timed.
 #include <gtest/gtest.h>
 #include <linux/perf_event.h>
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -413,36 +411,6 @@ TEST(BenchEvents, SayWhyTheyCannotBeCounted) {
   const EventCounter unknown(PERF_TYPE_SOFTWARE, 999);
   EXPECT_FALSE(unknown.error().empty());
   EXPECT_TRUE(std::isnan(unknown.count()));
-}
-
-TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
-  const std::map<std::string, Row> rows = small_rows(160, 90);
-  for (const std::string scene : {"cube", "sphere", "grid64", "large"})
-    for (const std::string pause : {"", "/pause:2ms"})
-      for (const std::string stores : {"", "/stores:streaming"})
-        for (const std::string threads : {"/threads:1", "/threads:2"}) {
-          const Row& row = rows.at("tiled+frontend/" + scene + pause + stores + threads);
-          EXPECT_EQ(row.pause_s, pause.empty() ? 0.0 : 2e-3) << row.name;
-          EXPECT_EQ(lab::describe(row.tiles), stores.empty() ? "" : "streaming stores") << row.name;
-          EXPECT_EQ(is_plain(row), (pause + stores).empty()) << row.name;
-        }
-}
-
-TEST(BenchProgram, PausesAreMadeButNotTimed) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto json = written("benchmark_out",
-                            "--size 64x64 --benchmark_min_time=0.003 --benchmark_repetitions=5 "
-                            "--benchmark_filter=/cube/pause:2ms/threads:1");
-  const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-  double frames = 0.0, fastest_ms = 1e9;
-  for (const auto& entry : json["benchmarks"]) {
-    if (!entry["name"].get<std::string>().starts_with("tiled") || entry["run_type"] != "iteration") continue;
-    frames += entry["iterations"].get<double>();
-    fastest_ms = std::min(fastest_ms, entry["real_time"].get<double>());
-  }
-  EXPECT_GT(frames, 0.0);
-  EXPECT_GT(elapsed.count(), 2.0 * frames);
-  EXPECT_LT(fastest_ms, 2.0);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ sys.path.insert(0, str(SCRIPTS / "reporting"))
 from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
-from bench_tables import engine_table, peer_tables, scene_table, speed_table, tails_table, tile_stores_table  # noqa: E402
+from bench_tables import engine_table, peer_tables, scene_table, speed_table, tails_table  # noqa: E402
 from factors import gains, superlinear  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
@@ -73,16 +73,6 @@ class AnswersTest(unittest.TestCase):
                                  ["`tiled` itself", "**1.11×** (1.09 to 1.13)"],
                                  ["64-bit integers", "1.00× (0.98 to 1.01)"],
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
-
-    def test_tile_stores_are_compared_back_to_back_and_after_pauses(self):
-        times = {f"tiled+frontend/cube{keys}/threads:2": ms for keys, ms in
-                 (("", 1.0), ("/stores:streaming", 2.0), ("/pause:2ms", 3.0), ("/pause:2ms/stores:streaming", 3.0))}
-        header, lines = tile_stores_table(bench(times))
-        self.assertEqual(header, ["scene", "threads", "back to back: rule, ms", "streaming, ms", "after 2 ms: rule, ms", "streaming, ms"])
-        self.assertEqual(lines, [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "3.00 (not settled)"]])
-        del times["tiled+frontend/cube/pause:2ms/stores:streaming/threads:2"]
-        self.assertEqual(tile_stores_table(bench(times))[1], [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "–"]])
-        self.assertEqual(tile_stores_table(bench({}))[1], [])
 
     def test_tails_are_those_of_rows_whose_frames_were_kept(self):
         names = [f"{backend}+frontend/{scene}/threads:2" for scene in ("cube", "knot") for backend in ("tiled", "scanline")]
