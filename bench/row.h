@@ -2,11 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/workloads/methods.h"
 #include "bench/workloads/pipelines.h"
@@ -26,13 +24,6 @@ inline constexpr double kTooSlowToRepeat_s = 0.3;
 // Rows that take longer are drawn once. Frames whose backend alone takes longer are left out of the suite.
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
-// Of a frame drawn by newly made objects.
-struct FirstFrame {
-  std::optional<double>
-      peak_bytes;  // growth of the process's resident memory; none if /proc lacks the figures
-  double s;
-};
-
 struct Row {
   // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell, lab
   // or needs
@@ -47,11 +38,7 @@ struct Row {
   bool device_clock = false;  // a peer's frame by its device's clock
   Execution execution;
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
-  std::optional<FirstFrame> first_frame;            // if measured
-  bool keeps_frames = false;                        // whether the duration of each frame is kept
-  std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
-  std::map<std::string, double> events;             // of counted_frames frames, by the counter's name
-  double counted_frames = 0.0;
+  std::optional<double> peak_bytes;                 // of a first frame, if measured
   double many_rounds_up_to_s = 0.0;  // a shorter draw is repeated more often than other rows are
   double once_s = 0.0;               // duration of the compared draw
   std::uint64_t depth_ties = 0;      // peers: depth ties within tolerance, px

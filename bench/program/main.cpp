@@ -2,7 +2,6 @@
 // repetitions, so that a burst of other load on the machine does not hit one row alone.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <linux/perf_event.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +14,6 @@
 
 #include "bench/program/flags.h"
 #include "bench/program/reporter.h"
-#include "bench/workloads/events.h"
 #include "bench/workloads/memory.h"
 #include "bench/workloads/stage.h"
 #include "core/parallel.h"
@@ -45,8 +43,8 @@ constexpr int kRounds = 9, kManyRounds = 36;
 // A quick run begins no round beyond kRounds after this time.
 constexpr double kQuickRounds_s = 180.0;
 
-// A backend's whole frames: the first one's memory and duration, and how long the slowest take.
-bool keeps_frames(const Row& row) {
+// A backend's whole frames.
+bool measures_memory(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
          row.once_s < kTooSlowToDrawTwice_s;
 }
@@ -130,10 +128,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
       rows[i].once_s = rows[i - 1].once_s;
     else
       stage.compare(rows[i]);
-    if (keeps_frames(rows[i])) {
-      rows[i].keeps_frames = true;
-      rows[i].first_frame = draw_first_frame(rows[i]);
-    }
+    if (measures_memory(rows[i])) rows[i].peak_bytes = peak_bytes_of_first_frame(rows[i]);
     if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
   }
 }
@@ -157,38 +152,6 @@ int rounds_of(const Row& row, const Flags& flags) {
   return flags.repetitions.value_or(row.once_s < row.many_rounds_up_to_s ? kManyRounds : kRounds);
 }
 
-// With fewer, the 99th percentile would be the slowest of all.
-constexpr std::size_t kFramesForP99 = 100;
-
-// The smallest value that at least `share` of all values do not exceed.
-double percentile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-struct FrameEvent {
-  std::string name;
-  EventCounter counter;
-};
-
-// Opened by the thread that draws.
-std::span<const FrameEvent> frame_events() {
-  static const FrameEvent kEvents[] = {{"instructions", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS}},
-                                       {"cache_misses", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_CACHE_MISSES}}};
-  return kEvents;
-}
-
-// Other threads' events are not counted.
-bool counts_events(const Row& row) {
-  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 1;
-}
-
-void add_events(Row& row, double sign) {
-  for (const auto& [name, counter] : frame_events()) row.events[name] += sign * counter.count();
-}
-
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (is_known(row)) {
@@ -196,15 +159,9 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   } else {
     // The caches hold another row's data. A long draw needs no warm-up.
     if (stage.renew_memory(row) || row.once_s < kRepetition_s) stage.work(row);
-    if (counts_events(row)) add_events(row, -1.0);
     for (auto _ : state) {
       const double frame_s = stage.timed_work_s(row);
       if (row.device_clock) state.SetIterationTime(frame_s);
-      if (row.keeps_frames) row.frames_s.push_back(frame_s);
-    }
-    if (counts_events(row)) {
-      add_events(row, 1.0);
-      row.counted_frames += static_cast<double>(state.iterations());
     }
   }
   auto& counters = state.counters;
@@ -221,13 +178,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   counters["height"] = workload.height();
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
-  if (row.first_frame) {
-    counters["first_ms"] = row.first_frame->s * 1e3;
-    if (row.first_frame->peak_bytes) counters["peak_bytes"] = *row.first_frame->peak_bytes;
-  }
-  if (row.frames_s.size() >= kFramesForP99) counters["p99_ms"] = percentile(row.frames_s, 0.99) * 1e3;
-  for (const auto& [name, events] : row.events)
-    if (!std::isnan(events)) counters[name] = events / row.counted_frames;
+  if (row.peak_bytes) counters["peak_bytes"] = *row.peak_bytes;
   if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
     counters["wrong_px"] = static_cast<double>(*wrong_px);
   if (row.timed == Timed::frontend) return;
@@ -310,9 +261,6 @@ void add_context(const Flags& flags, std::span<const Row> rows, std::span<const 
   for (const std::string& scene : inputs)
     if (tools::is_file_path(scene))
       benchmark::AddCustomContext("file " + name_in_rows(scene), describe_file(tools::input_path(scene)));
-  const std::string& error = frame_events().front().counter.error();
-  benchmark::AddCustomContext("perf_event",
-                              error.empty() ? "available" : fmt::format("not available ({})", error));
 }
 
 int run(int argc, char** argv) {

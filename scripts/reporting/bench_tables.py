@@ -3,7 +3,7 @@ import noise
 from bench_rows import describe_machine, gained, gained_interval, order, read_bench
 from factors import duels
 from program import read_json
-from tables import VECTORS, about, gain, milliseconds, number, percent, short, with_width
+from tables import VECTORS, about, gain, milliseconds, number, percent, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -55,64 +55,6 @@ def speed_table(bench):
                       *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
                       *(milliseconds(peer_frame(bench, peer, scene, max(THREADS))) for peer in bench.peers)])
     return ["scene", "triangles", *bench.backends, *bench.peers], lines
-
-
-def tails_table(bench):
-    """Header and lines: how long whole frames of ours take at the median, in the slowest of a hundred, and at first; and their events."""
-    names = [backend for backend in bench.backends if any(row.backend == backend for row in tailed(bench))]
-    counted = any(EVENTS[0] in row.counters for row in bench.rows.values())
-    columns = ["median / p99, ms", "first, ms", *(["instructions / cache misses"] if counted else [])]
-
-    def cells(backend, scene):
-        return [*tail_cells(bench.frame(backend, scene, max(THREADS))), *([event_cell(bench.frame(backend, scene, 1))] if counted else [])]
-
-    lines = [[scene, *(cell for backend in names for cell in cells(backend, scene))]
-             for scene in bench.scenes if any(row.scene == scene for row in tailed(bench))]
-    return ["scene", *(f"{backend}, {what}" for backend in names for what in columns)], lines
-
-
-def tailed(bench):
-    return [row for row in bench.sweep("threads") if "first_ms" in row.counters]
-
-
-def tail_cells(row):
-    if row is None or "first_ms" not in row.counters:
-        return "–", "–"
-    p99 = row.counters.get("p99_ms")  # None if too few frames were timed
-    return f"{milliseconds(row)} / {number(p99) if p99 else '–'}", number(row.counters["first_ms"])
-
-
-EVENTS = ("instructions", "cache_misses")  # per frame of a row on one thread
-
-
-def event_cell(row):
-    return " / ".join(short(row.counters[event]) if row and event in row.counters else "–" for event in EVENTS)
-
-
-def events_sentence(bench):
-    """Where the events of tails_table() were counted, or why not; nothing of older results."""
-    allowed = bench.context.get("perf_event")
-    if allowed == "available":
-        return "Instructions and cache misses are those of a frame on one thread, in user space.\n"
-    return f"Instructions and cache misses are left out: on this machine `perf_event` is {allowed}.\n" if allowed else ""
-
-
-# Of the rows of whole frames: the keys of each size.
-RESOLUTIONS = {"720p": "/size:1280x720", "1080p": "", "4K": "/size:3840x2160"}
-
-
-def resolution_table(bench):
-    """Header and lines: which of two backends draws whole frames faster at each size, in scenes and files with a camera."""
-    def winner(*rows):
-        if not all(rows):
-            return "–"
-        first, other = rows if order(*rows) < 0 else reversed(rows)
-        return f"{first.backend}, {about(gained(other, first))}" if order(*rows) else "not settled"
-
-    lines = [[bench.context.get(f"file {scene}", scene), scene_facts(bench, scene)[0],
-              *(winner(*(bench.frame(who, scene + keys, max(THREADS)) for who in ("scanline", OURS))) for keys in RESOLUTIONS.values())]
-             for scene in bench.scenes if bench.frame(OURS, scene + RESOLUTIONS["4K"], max(THREADS))]
-    return ["scene", "triangles", *RESOLUTIONS], lines
 
 
 def peer_frame(bench, peer, scene, threads):

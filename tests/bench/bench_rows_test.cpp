@@ -1,19 +1,13 @@
 // The benchmark's rows have different names, and rows that draw wrong pixels are never timed.
 #include <gtest/gtest.h>
-#include <linux/perf_event.h>
-#include <sys/mman.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <thread>
 
 #include "bench/suite.h"
-#include "bench/workloads/events.h"
 #include "bench/workloads/stage.h"
 #include "lab/engine/engine.h"
 #include "message_of.h"
@@ -110,32 +104,8 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
   });
   int of_peers = 0;
   for (const lab::PeerInfo& peer : lab::benchmark_peers()) of_peers += peer.most_threads + peer.own_clock;
-  constexpr std::size_t kOfOtherSizes = 8;
   EXPECT_EQ(names.size(), 3 + 6 * backends().size() + static_cast<std::size_t>(of_peers + 2 * narrower) +
-                              12 * (tools::default_threads() > 1 ? 2 : 1) + kOfOtherSizes);
-}
-
-TEST(BenchSuite, TimesScenesWithACameraAtOtherSizes) {
-  const TempDir folder;
-  SuiteOptions options;
-  options.more_scenes = {folder.write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string()};
-  const auto sizes = [&] {
-    std::map<std::string, std::set<std::pair<int, int>>> found;
-    for (const Row& row : make_suite(options))
-      if (row.timed == Timed::frame && row.name.find("/size:") != std::string::npos) {
-        EXPECT_GT(row.many_rounds_up_to_s, 0.0) << row.name;
-        found[row.name.substr(row.name.find('/') + 1, row.name.find("/size:") - row.name.find('/') - 1)]
-            .insert({row.workload->width(), row.workload->height()});
-      }
-    return found;
-  };
-  const std::set<std::pair<int, int>> both{{1280, 720}, {3840, 2160}};
-  std::map<std::string, std::set<std::pair<int, int>>> expected{{"mine", both}};
-  for (const SceneInfo& scene : builtin_scenes())
-    if (!scene.stream) expected.emplace(scene.name, both);
-  EXPECT_EQ(sizes(), expected);
-  options.size_asked = true;
-  EXPECT_TRUE(sizes().empty());
+                              12 * (tools::default_threads() > 1 ? 2 : 1));
 }
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
@@ -371,46 +341,12 @@ TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
   for (const auto& [name, count] : times) EXPECT_EQ(count, 9) << name;
 }
 
-TEST(BenchProgram, NamesTheFileAndSaysWhetherEventsAreCounted) {
+TEST(BenchProgram, NamesTheFile) {
   const TempDir folder;
   const std::string mesh = folder.write("a:b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
   const auto json = written("benchmark_out", "--fit --size 64x64 --benchmark_repetitions=2 --scene " + mesh +
                                                  " --benchmark_filter=^tiled.frontend/a_b/threads:");
   EXPECT_EQ(json["context"]["file a_b"], "a:b.obj, 0 kB");
-  const bool counts = json["context"]["perf_event"] == "available";
-  EXPECT_TRUE(counts || json["context"]["perf_event"].get<std::string>().starts_with("not available ("));
-  const std::string name = "tiled+frontend/a_b/threads:";
-  for (const auto& entry : json["benchmarks"])
-    if (entry["run_type"] == "iteration" && entry["name"].get<std::string>().starts_with(name)) {
-      EXPECT_EQ(entry.contains("instructions"), counts && entry["name"] == name + "1") << entry;
-      EXPECT_TRUE(!entry.contains("instructions") || entry["instructions"] > 1000.0) << entry;
-    }
-}
-
-TEST(BenchEvents, CountThoseOfThisThread) {
-  constexpr std::size_t kPage = 4096, kPages = 256;
-  const EventCounter faults(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS);
-  if (!faults.error().empty()) GTEST_SKIP() << "perf_event_open: " << faults.error();
-  const auto faults_of = [&](const std::function<void()>& work) {
-    const double before = faults.count();
-    work();
-    return faults.count() - before;
-  };
-  const auto touch = [] {
-    void* memory = mmap(nullptr, kPages * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    ASSERT_NE(memory, MAP_FAILED);
-    madvise(memory, kPages * kPage, MADV_NOHUGEPAGE);
-    for (std::size_t page = 0; page < kPages; ++page) static_cast<char*>(memory)[page * kPage] = 1;
-    munmap(memory, kPages * kPage);
-  };
-  EXPECT_GE(faults_of(touch), kPages);
-  EXPECT_LT(faults_of([&] { std::thread(touch).join(); }), kPages / 2);
-}
-
-TEST(BenchEvents, SayWhyTheyCannotBeCounted) {
-  const EventCounter unknown(PERF_TYPE_SOFTWARE, 999);
-  EXPECT_FALSE(unknown.error().empty());
-  EXPECT_TRUE(std::isnan(unknown.count()));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ sys.path.insert(0, str(SCRIPTS / "reporting"))
 from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
-from bench_tables import engine_table, peer_tables, scene_table, speed_table, tails_table  # noqa: E402
+from bench_tables import engine_table, peer_tables, scene_table, speed_table  # noqa: E402
 from factors import gains, superlinear  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
@@ -73,17 +73,6 @@ class AnswersTest(unittest.TestCase):
                                  ["`tiled` itself", "**1.11×** (1.09 to 1.13)"],
                                  ["64-bit integers", "1.00× (0.98 to 1.01)"],
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
-
-    def test_tails_are_those_of_rows_whose_frames_were_kept(self):
-        names = [f"{backend}+frontend/{scene}/threads:2" for scene in ("cube", "knot") for backend in ("tiled", "scanline")]
-        timed = bench(dict.fromkeys(names, 2.0), backends="scanline tiled")
-        for name in names[:3]:
-            timed.rows[name].counters = {"p99_ms": 3.14159, "first_ms": 12.0}
-        del timed.rows["tiled+frontend/knot/threads:2"].counters["p99_ms"]
-        header, lines = tails_table(timed)
-        self.assertEqual(header[1:3], ["scanline, median / p99, ms", "scanline, first, ms"])
-        self.assertEqual(lines, [["cube", "2.00 / 3.14", "12", "2.00 / 3.14", "12"], ["knot", "–", "–", "2.00 / –", "12"]])
-        self.assertEqual(tails_table(bench({}))[1], [])
 
     def test_methods_have_the_times_of_their_rows(self):
         score = {"errors_per_million": 0.0}

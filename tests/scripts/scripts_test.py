@@ -380,44 +380,6 @@ class MachineTest(unittest.TestCase):
         self.assertTrue(describe_machine({**MACHINE, "usable_cores": 1}).startswith("Test CPU, 1 usable of 2 cores, avx2"))
 
 
-class EventsTest(unittest.TestCase):
-    """bench_tables.tails_table(): counters of instructions."""
-
-    def test_shows_events_where_they_were_counted(self):
-        from bench_rows import Bench, parse_name
-        from bench_tables import events_sentence, tails_table
-        rows = {name: parse_name(name) for name in ("tiled+frontend/cube/threads:1", "tiled+frontend/cube/threads:2")}
-        for row in rows.values():
-            row.times_ms, row.counters = [2.0], {"first_ms": 12.0}
-        del rows["tiled+frontend/cube/threads:1"].counters["first_ms"]
-        rows["tiled+frontend/cube/threads:1"].counters = {"instructions": 4.5e6, "cache_misses": 1234.0}
-        header, lines = tails_table(Bench({"backends": "tiled"}, rows))
-        self.assertEqual((header[-1], lines), ("tiled, instructions / cache misses", [["cube", "2.00 / –", "12", "4.5M / 1.23k"]]))
-        self.assertIn("on one thread", events_sentence(Bench({"perf_event": "available"}, rows)))
-        self.assertIn("left out: on this machine `perf_event` is not available (why)",
-                      events_sentence(Bench({"perf_event": "not available (why)"}, {})))
-        self.assertEqual(events_sentence(Bench({}, {})), "")
-
-
-class ResolutionTest(unittest.TestCase):
-    """bench_tables.resolution_table(): the winner at each size, of scenes and files."""
-
-    def test_names_the_faster_backend_where_it_is_settled(self):
-        from bench_rows import Bench, parse_name
-        from bench_tables import resolution_table
-        rows = {}
-        for scene, keys, scanline, tiled in (("bunny", "/size:1280x720", 1.0, 2.0), ("bunny", "", 3.0, 3.0), ("bunny", "/size:3840x2160", 4.0, 2.0),
-                                             ("cube", "", 1.0, 2.0), ("cube", "/size:3840x2160", 1.0, 2.0), ("large", "", 1.0, 2.0)):
-            for backend, ms in (("scanline", scanline), ("tiled", tiled)):
-                row = parse_name(f"{backend}+frontend/{scene}{keys}/threads:2")
-                row.times_ms = [ms + 1e-3 * i for i in range(9)]
-                rows[row.name] = row
-        header, lines = resolution_table(Bench({"file bunny": "bunny.obj, 5 kB"}, rows))
-        self.assertEqual(header, ["scene", "triangles", "720p", "1080p", "4K"])
-        self.assertEqual(lines, [["bunny.obj, 5 kB", "–", "scanline, 2.0×", "not settled", "tiled, 2.0×"],
-                                 ["cube", "–", "–", "scanline, 2.0×", "scanline, 2.0×"]])
-
-
 class EngineTest(unittest.TestCase):
     """accuracy_rows.parse_accuracy(): methods that the charts leave out."""
 
