@@ -63,8 +63,7 @@ def exactness_rows(accuracy, target):
 
 
 def gap_rows(accuracy):
-    keys = ("total_gaps", "total_double_hits", "total_wrong")
-    turned = [(m, *map(found.get, keys)) for m, found in (accuracy.cube or {"methods": ()})["methods"]]
+    turned = (accuracy.cube or {"methods": ()})["methods"]
     ours = [counts for m, *counts in turned if m.ours]
     if ours:
         told = [(f"`{m.name}`", *counts) for m, *counts in turned if m.name in INSIDE_TESTS] + [("ours", *map(max, zip(*ours)))]

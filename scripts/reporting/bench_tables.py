@@ -1,25 +1,16 @@
 """The tables of a machine's benchmark."""
+import os
+
 import noise
-from bench_rows import describe_machine, gained, gained_interval, order, read_bench
+from bench_rows import describe_machine, gained, order, read_bench
 from factors import duels
 from program import read_json
-from tables import VECTORS, about, gain, milliseconds, number, percent, with_width
+from tables import VECTORS, about, by_order, gain, milliseconds, number, outcome, percent, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
 OURS = "tiled"  # the backend that represents ours
 GPU = "gpu"  # the peer that has no number of threads
-
-
-def fastest(bench, scene):
-    """The fastest backend on the most threads, with its speed-up over the next; several if the order is not settled."""
-    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{bench.threads[-1]}"))]
-    if len(rows) < 2:
-        return "–"
-    first, *others = sorted(rows, key=lambda row: row.median_ms)
-    close = [row.backend for row in others if order(first, row) == 0]
-    return " or ".join([first.backend, *close]) if close else \
-        f"{first.backend}, {about(gained(others[0], first))}"
 
 
 def scene_facts(bench, scene):
@@ -29,16 +20,6 @@ def scene_facts(bench, scene):
     triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
     overdraw = f"{raster.counters['overdraw']:.2f}" if raster else "–"
     return triangles, overdraw
-
-
-def scene_table(bench):
-    """Header and lines: a line per scene, with a backend's ms on each number of threads in one cell."""
-    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), "fastest"]
-    lines = []
-    for scene in bench.scenes:
-        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in bench.threads) for b in bench.backends]
-        lines.append([scene, *scene_facts(bench, scene), *times, fastest(bench, scene)])
-    return header, lines
 
 
 def speed_table(bench):
@@ -51,10 +32,10 @@ def speed_table(bench):
             best = all(order(row, other) < 0 for other in ours.values() if other is not row)
             return f"**{milliseconds(row)}**" if best and len(ours) > 1 else milliseconds(row)
 
-        lines.append([scene, scene_facts(bench, scene)[0],
+        lines.append([scene, *scene_facts(bench, scene),
                       *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
                       *(milliseconds(peer_frame(bench, peer, scene, max(THREADS))) for peer in bench.peers)])
-    return ["scene", "triangles", *bench.backends, *bench.peers], lines
+    return ["scene", "triangles", "overdraw", *bench.backends, *bench.peers], lines
 
 
 def peer_frame(bench, peer, scene, threads):
@@ -133,13 +114,12 @@ def engine_rows(bench):
 
 
 def against_base(base, row):
-    """The speed relative to the base, bold if it is settled, its interval, and how many pixels are wrong."""
+    """The speed relative to the base, bold if it is settled, and how many pixels are wrong."""
     if row is None:
         return "–"
-    low, high = (f"{end:.2f}" for end in gained_interval(base, row))
-    ratio = f"{gained(base, row):.2f}×"
+    ratio = about(gained(base, row))
     wrong = row.counters.get("wrong_px")
-    return (f"**{ratio}**" if order(row, base) else ratio) + f" ({low} to {high})" + (f"; {number(wrong)} px" if wrong is not None else "")
+    return (f"**{ratio}**" if order(row, base) else ratio) + (f"; {number(wrong)} px" if wrong else "")
 
 
 def engine_table(bench):
@@ -209,30 +189,13 @@ def other_folders(folder):
             if other != folder.resolve() and (other / "bench.json").exists() and (other / "machine.json").exists()]
 
 
-def peers_by_machine(benches):
-    """Header and lines: our backend's speed-up over each peer, on the most threads. `benches`: by the machine's name."""
-    found = [{(peer, *key): rows for peer in bench.peers for key, rows in pairs(bench, peer).items()} for bench in benches.values()]
-    keys = dict.fromkeys((peer, scene) for rows in found for peer, scene, _ in rows)
-    cells = [[rows.get((peer, scene, max(THREADS))) for rows in found] for peer, scene in keys]
-    return (["scene", *(f"`{name}`" for name in benches)],
-            [[f"{scene}, {peer}", *(gain(*rows) if rows else "–" for rows in row)]
-             for (peer, scene), row in zip(keys, cells)])
-
-
-def other_machines(folder, where, layout):
-    """A line and a chart for each other machine, and the peers' ratios on all machines, laid out by `layout` (see
-    markdown()); `where` is `folder` as README.md names it."""
-    beside = other_folders(folder)
-    if not beside:
-        return "No other machine's results lie beside these."
-    benches = {one.resolve().name: read_bench(one) for one in (folder, *beside)}
-    lines, charts = [], []
-    for other in beside:
-        link = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}".lstrip("/")
-        lines.append(f"- [`{other.name}`]({link}): {describe_machine(read_json(other / 'machine.json'))}.")
-        charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
-    header, rows = peers_by_machine(benches)
-    if rows:
-        lines += ["", f"Speed-up of `{OURS}` over its peers, on {max(THREADS)} threads with the widest SIMD of each machine:", "",
-                  layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
-    return "\n".join([*lines, *charts])
+def machines(folder, where):
+    """A line for each machine, this one first: what it is, and how much faster ours is than each peer on it. `where` is `folder` as the
+    README names it."""
+    lines = []
+    for one in (folder, *other_folders(folder)):
+        link, bench = os.path.normpath(f"{where}/../{one.resolve().name}"), read_bench(one)
+        faster = [f"`{OURS}` against {peer} {outcome(by_order([(ours, row) for (_, n), (row, ours) in pairs(bench, peer).items() if n == max(THREADS)]))}"
+                  for peer in timed_peers(bench)]
+        lines.append("; ".join([f"- [`{one.resolve().name}`]({link}): {describe_machine(read_json(one / 'machine.json'))}", *faster]) + ".")
+    return "\n".join(lines)
