@@ -8,44 +8,30 @@ from bench_rows import LABORATORY, Row, facts_of
 from program import parsed
 
 
-@dataclass(frozen=True)
-class Family:
+class Family(NamedTuple):
     """The wording of a family's figures."""
     name: str
     errors: str  # the errors counted, with their unit
     trials: str  # the key of a scene's number of trials
     trial: str  # what is tried
-    truth: str = "score"  # the key of the scores against the main truth
-    kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
+    truth: str = "score"  # the key of the scores that are shown
     beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
 
-    def beyond_note(self, rates):
-        return f". {self.beyond}" if any(rate > 1e6 for rate in rates) else ""
 
-    def kind(self, method):
-        if method.ours:
-            return "ours"
-        return next((kind for kind, starts in self.kinds.items() if method.name.startswith(starts)), "other")
-
-
-PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "source",
-           {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
-            "tiled, other numbers": ("engine",), "peers": PEERS},
-           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
-    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "covered pixels", "snapped",  # all methods draw the same snapped triangles, so the other truth adds the same to each
-           {"drawing in order": ("painter", "submission"),
-            "depth buffer": ("float", "reversed", "unorm")}),
-    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "visible faces", "source",
-           {"signed area": ("float_area",), "normal": ("normal",)}),
+           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box."),
+    # All methods draw the same snapped triangles, so the other truth adds the same to each.
+    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "covered pixels", "snapped"),
+    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "visible faces", "source"),
     Family("clipping", "wrong pixels per 10⁶ covered", "covered", "covered pixels",
-           beyond="More than 10⁶: pixels drawn where nothing should be count as well"),
+           beyond="More than 10⁶: pixels drawn where nothing should be count as well."),
     Family("projection", "samples of single triangles that differ from the exact projection of the scene's vertices, per 10⁶ edge crossings",
-           "crossings", "edge crossings", kinds={"one matrix": ("matrix",), "exact, then rounded": ("exact",)}),
+           "crossings", "edge crossings"),
 )}
 
 
+PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 SCALAR = "scalar"  # the name of the form without SIMD
 LEAST_SHARE = 0.01  # of the trials of a family's largest scene
 UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
@@ -141,7 +127,6 @@ class Measured:
 class Scene:
     name: str
     family: str
-    summary: str
     trials: int
     measured: tuple
     apart: tuple = ()  # the measurements of methods that are `apart`; coverage only
@@ -241,7 +226,7 @@ def parse_accuracy(data, bench=None):
                                     times.get((family.name, scene["name"], entry["name"]), {}).items()
                                     if row.counters["triangles"] == triangles})  # else timed on a scene of another size
                     for entry in scene["methods"]]
-        scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
+        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]),
                             tuple(m for m in measured if not m.method.apart), tuple(m for m in measured if m.method.apart),
                             int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
     by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]

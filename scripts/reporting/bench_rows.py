@@ -106,11 +106,6 @@ class Bench:
         return [r for r in self.rows.values() if key in r.keys and r.times_ms]
 
     @property
-    def threads(self):
-        """The numbers of threads of the main table, ascending."""
-        return sorted({int(r.keys["threads"]) for r in self.rows.values() if r.scene and set(r.keys) == {"threads"}})
-
-    @property
     def scenes(self):
         """The scenes of the main table, in the suite's order."""
         plain = (r.scene for r in self.rows.values() if r.scene and set(r.keys) == {"threads"})

@@ -53,9 +53,10 @@ def all_scenes(accuracy, family, folder, caption):
     if not scenes or not methods:
         return None
     slanted = len(methods) > 8 or max(len(method.name) for method in methods) > 14  # or they run into one another
-    note = family.beyond_note(rate for _, _, rates in scenes for rate in rates.values())
+    note = family.beyond if any(rate > 1e6 for _, _, rates in scenes for rate in rates.values()) else ""
     subtitle = (f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene; n is the number of {family.trial}. "
-                f"First row: the scenes with at least {percent(LEAST_SHARE)} of the largest one's. Bold: ours." + (" Italics: pixels of the crack." if any(label in CRACKS.values() for label, _, _ in scenes) else ""))
+                f"First row: the scenes with at least {percent(LEAST_SHARE)} of the largest one's. Bold: ours."
+                + (" Italics: pixels of the crack." if any(label in CRACKS.values() for label, _, _ in scenes) else ""))
     above = head_in(subtitle) + (0.95 if slanted else 0.5)
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + (0.55 if note else 0.4) + 0.27 * len(scenes)))
     shades = plt.get_cmap("YlOrBr")
@@ -88,7 +89,7 @@ def all_scenes(accuracy, family, folder, caption):
     headline(figure, errors_title(accuracy, family), subtitle)
     figure.subplots_adjust(left=0.235, right=0.945 if slanted else 0.985, bottom=(0.5 if note else 0.35) / height,
                            top=1 - above / height)
-    save(figure, folder, f"errors-{family.name}", f"{note[2:]}.\n{caption}" if note else caption)
+    save(figure, folder, f"errors-{family.name}", f"{note}\n{caption}" if note else caption)
     return f"errors-{family.name}"
 
 

@@ -44,7 +44,7 @@ def measured(name, rate):
 
 
 def accuracy(*methods, cube=None):
-    return Accuracy({"coverage": [m.method for m in methods]}, (Scene("mesh_on_grid", "coverage", "", 1000, methods),), cube)
+    return Accuracy({"coverage": [m.method for m in methods]}, (Scene("mesh_on_grid", "coverage", 1000, methods),), cube)
 
 
 def turning(*counts):
@@ -69,7 +69,7 @@ class AnswersTest(unittest.TestCase):
     def test_methods_have_the_times_of_their_rows(self):
         score = {"errors_per_million": 0.0}
         data = {"methods": [{"family": "coverage", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
-                "scenes": [{"name": "s", "family": "coverage", "summary": "", "covered": 500, "triangles": 20, "crossings": 9,
+                "scenes": [{"name": "s", "family": "coverage", "covered": 500, "triangles": 20, "crossings": 9,
                             "methods": [{"name": name, "source": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
         rows = {"lab/s/family:coverage/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:coverage/method:m/simd:scalar/threads:2": 3.0,
                 "lab/s/family:coverage/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:coverage/method:m/simd:avx512/threads:2": 1.0,
@@ -144,8 +144,8 @@ class AnswersTest(unittest.TestCase):
 
     def test_a_scene_that_has_over_half_of_the_errors_is_named(self):
         ours, plain = measured("tiled", 800), measured("float_lt", 6000)
-        scenes = (Scene("mesh_on_grid", "coverage", "", 1000, (measured("tiled", 0), plain)),
-                  Scene("grid4", "coverage", "", 3000, (ours, measured("float_lt", 2))))
+        scenes = (Scene("mesh_on_grid", "coverage", 1000, (measured("tiled", 0), plain)),
+                  Scene("grid4", "coverage", 3000, (ours, measured("float_lt", 2))))
         told = Accuracy({"coverage": [ours.method, plain.method]}, scenes, None)
         self.assertEqual([pooled_text(wrong_of(told, m.method)) for m in (ours, plain)], ["200,000; 0 without grid4", "1,500,000; 667 without mesh_on_grid"])
 
@@ -154,7 +154,7 @@ class AnswersTest(unittest.TestCase):
 
         def scene_of(name, trials, side_px, *rates):
             methods = (Method("x", "a book"), limited)
-            return Scene(name, "coverage", "", trials, tuple(Measured(method, rate) for method, rate in
+            return Scene(name, "coverage", trials, tuple(Measured(method, rate) for method, rate in
                                                              zip(methods, rates)), largest_side_px=side_px)
 
         scenes = (scene_of("large", 30000, 500.0, 10.0, 9e6), scene_of("medium", 10000, 100.0, 50.0, 4.0),
@@ -207,7 +207,7 @@ class FrontierTest(unittest.TestCase):
 
     def accuracy(self, **scenes):
         """From the methods of each scene; every scene has 10⁵ crossings of shared edges and triangles of 200 px."""
-        made = tuple(Scene(name, "coverage", "", 10 ** 6, methods, (), 10 ** 5, 200.0) for name, methods in scenes.items())
+        made = tuple(Scene(name, "coverage", 10 ** 6, methods, (), 10 ** 5, 200.0) for name, methods in scenes.items())
         return Accuracy({"coverage": [m.method for m in made[0].measured]}, made, None)
 
     def test_cracks_are_pooled_without_overflow_and_without_the_scene_that_has_most(self):
