@@ -440,6 +440,12 @@ class ChartsTest(unittest.TestCase):
         self.assertEqual([(found.winner, found.order, found.triangle_px, found.only_shipped) for found in (duel(1, True), duel(4, True), duel(1, False))],
                          [(("bands", "edges"), -1, 5.0, only) for only in (True, False, False)])
 
+    def test_a_chart_of_errors_begins_with_the_pooled_rates(self):
+        from accuracy_rows import parse_accuracy
+        from plot_accuracy import chart_rows
+        self.assertEqual([row[:2] for row in chart_rows(parse_accuracy(accuracy()), "facing")],
+                         [(label, {"ours": "0", "float_le": "5k"}) for label in ("pooled", "knot", "small")])
+
     def test_straight_lines_cross_where_they_should(self):
         from plot_area import crossings
         falling = self.curve(*[[time] * 5 for time in (1000.0, 100.0, 10.0, 1.0)])
