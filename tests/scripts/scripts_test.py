@@ -351,7 +351,7 @@ class ScriptsTest(FolderTest):
         plotted(self, self.results)
         plotted(self, self.results, "--out", self.folder / "again")
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "culling", "factors", "stability-grid", "threads", *(f"errors-{family}" for family in FAMILIES)]
+        charts = ["area", "culling", "factors", "stability-grid", *(f"errors-{family}" for family in FAMILIES)]
         self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
         for name in drawn:
             self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
