@@ -2,7 +2,7 @@
 from facts_tables import pooled_text
 from factors import cells, chosen, gains, most_threads
 from frontier import EXACT, INSIDE_TESTS, PRICED, simd_gain, wrong_of
-from bench_tables import OURS, THREADS, compared_targets, timed_peers
+from bench_tables import OURS, THREADS, compared_targets, faster, timed_peers
 from tables import about, by_order, enumerated, kernels, outcome
 
 HEADER = ["question", "answer", "condition"]
@@ -87,9 +87,7 @@ def peer_rows(bench):
     for peer in timed_peers(bench):
         target, found = compared_targets(bench, peer)[-1]
         left_out = [scene for scene, threads in found if threads == THREADS[-1] and (scene, THREADS[0]) not in found]
-        said = [outcome(by_order(of)) + f" on {threads} thread{'' if threads == 1 else 's'}" for threads in THREADS
-                if (of := [(ours, row) for (_, n), (row, ours) in found.items() if n == threads])]
-        yield [f"Against {peer}?", f"`{OURS}` {'; '.join(said)}",
+        yield [f"Against {peer}?", f"`{OURS}` {faster(found)}",
                f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}, and clusters out of view skipped; of two draws of a frame over 0.3 s the faster counts, and only a ratio over 2 is settled"
                + (f"; left out on {THREADS[0]} thread: {', '.join(left_out)}" if left_out and len(left_out) < len(found) // 2 else "")]
 

@@ -62,36 +62,23 @@ def compared_targets(bench, peer):
     return [(widest, pairs(bench, peer)), *((target, found) for target, found in same if found)]
 
 
-def peer_table(bench, peer):
-    """Header and lines: one line per scene that the peer drew; a cell has a figure for each number of threads."""
-    compared = compared_targets(bench, peer)
-    widest = compared[0][1]
-    header = ["scene", f"{peer}, ms", f"{OURS}, ms", *(f"speed-up with {with_width(target)}" for target, _ in compared)]
-    if peer == GPU:
-        header.insert(2, "by its own clock, ms")
-
-    lines = []
-    for scene in bench.scenes:
-        timed = [widest.get((scene, n), (None, None)) for n in THREADS]
-        if any(map(all, timed)):
-            theirs, ours = ([milliseconds(row) for row in side] for side in zip(*timed))
-            cells = [theirs, ours] if peer != GPU else [theirs[:1], [milliseconds(bench.frame(peer, f"{scene}/clock:device", 1))], ours]
-            cells += [[gain(*rows) if (rows := found.get((scene, n))) else "–" for n in THREADS] for _, found in compared]
-            lines.append([scene, *map(" / ".join, cells)])
-    return header, lines
+def faster(found):
+    """In how many scenes of pairs() ours is faster, and by how much, on each number of threads."""
+    of = {n: [(ours, row) for (_, threads), (row, ours) in found.items() if threads == n] for n in THREADS}
+    return "; ".join(f"{outcome(by_order(rows))} on {n} thread{'s' * (n > 1)}" for n, rows in of.items() if rows)
 
 
-def peer_tables(bench, layout):
-    """Every peer's table, laid out by `layout`, below its version and in how many pixels the pictures differ; one line if no peer was
-    timed."""
+def peer_lines(bench):
+    """A line per peer: its version, how much faster ours is, and in how many pixels the pictures differ; or why there is none."""
     told = []
     for peer in timed_peers(bench):
         rows = [row for row, _ in pairs(bench, peer).values()]
         most, why = max((row.counters.get(counter, 0), why) for row in rows for counter, why in
                         (("depth_ties", "depth ties within tolerance"), ("wrong_px", "not portable")))
-        told.append(f"{peer} ({bench.context.get(peer, 'unknown version')}), on {' / '.join(map(str, THREADS))} threads; pictures differ in "
-                    f"at most {most:,.0f} pixels, all {why}:\n\n{layout(*peer_table(bench, peer))}")
-    return "\n\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
+        speeds = (f"with {with_width(target)}, {faster(found)}" for target, found in compared_targets(bench, peer))
+        told.append(f"- {peer} ({bench.context.get(peer, 'unknown version')}): whole frames by `{OURS}` {'; '.join(speeds)}. Pictures differ in at most "
+                    f"{most:,.0f} pixels, all {why}.")
+    return "\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
 
 
 # The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal.
