@@ -76,8 +76,8 @@ def peer_lines(bench):
         most, why = max((row.counters.get(counter, 0), why) for row in rows for counter, why in
                         (("depth_ties", "depth ties within tolerance"), ("wrong_px", "not portable")))
         speeds = (f"with {with_width(target)}, {faster(found)}" for target, found in compared_targets(bench, peer))
-        told.append(f"- {peer} ({bench.context.get(peer, 'unknown version')}): whole frames by `{OURS}` {'; '.join(speeds)}. Pictures differ in at most "
-                    f"{most:,.0f} pixels, all {why}.")
+        told.append(f"- Against {peer} ({bench.context.get(peer, 'unknown version')}), whole frames by `{OURS}` are, {'; '.join(speeds)}. Pictures differ in "
+                    f"at most {most:,.0f} pixels, all {why}.")
     return "\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
 
 
@@ -182,7 +182,7 @@ def machines(folder, where):
     lines = []
     for one in (folder, *other_folders(folder)):
         link, bench = os.path.normpath(f"{where}/../{one.resolve().name}"), read_bench(one)
-        faster = [f"`{OURS}` against {peer} {outcome(by_order([(ours, row) for (_, n), (row, ours) in pairs(bench, peer).items() if n == max(THREADS)]))}"
-                  for peer in timed_peers(bench)]
-        lines.append("; ".join([f"- [`{one.resolve().name}`]({link}): {describe_machine(read_json(one / 'machine.json'))}", *faster]) + ".")
+        told = [f"Against {peer}, `{OURS}` is {outcome(by_order([(ours, row) for (_, n), (row, ours) in pairs(bench, peer).items() if n == max(THREADS)]))}."
+                for peer in timed_peers(bench)]
+        lines.append(" ".join([f"- [`{one.resolve().name}`]({link}): {describe_machine(read_json(one / 'machine.json'))}.", *told]))
     return "\n".join(lines)

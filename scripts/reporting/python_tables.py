@@ -38,7 +38,7 @@ def pixels(pictures, peer):
     """How the peer's pictures differ from ours."""
     covered = sum(picture["covered"] for picture, _ in pictures)
     differ, holes = (sum(picture["peers"][peer][key] for picture, _ in pictures) for key in ("differ", "holes"))
-    return f"{differ:,} of {short(covered)} pixels show another triangle, {holes or 'none'} of them a hole"
+    return f"Of {short(covered)} pixels {differ:,} show another triangle, {holes or 'none'} of them a hole"
 
 
 def python_lines(found):
@@ -46,7 +46,7 @@ def python_lines(found):
     if found is None:
         return NOT_MEASURED
     source, versions, pictures = found
-    return "\n".join(f"- {versions[peer]}: {'; '.join(f'{title} {faster(pictures, peer, job)}' for job, title in JOBS.items())}; "
+    return "\n".join(f"- Against {versions[peer]}, {'; '.join(f'{title} is {faster(pictures, peer, job)}' for job, title in JOBS.items())}. "
                      f"{pixels(pictures, peer)}." for peer in PEERS) + f"\n\nOn 2 threads; {source}. A scene is a mesh at one size."
 
 

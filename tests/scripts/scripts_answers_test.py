@@ -296,9 +296,9 @@ class PythonTest(FolderTest):
 
     def test_each_peer_has_a_line(self):
         lines = python_lines(self.read(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 1234)))).splitlines()
-        self.assertEqual(lines[0], "- vtk 1: a draw 4.0× faster in 1 of 1 scene; load and draw 4.0× faster in 1 of 1 scene; 0 of 5k pixels show another "
-                                   "triangle, 2 of them a hole.")
-        self.assertTrue(lines[1].startswith("- moderngl 1: a draw 2.0× slower in 1 of 1 scene; "))
+        self.assertEqual(lines[0], "- Against vtk 1, a draw is 4.0× faster in 1 of 1 scene; load and draw is 4.0× faster in 1 of 1 scene. Of 5k pixels 0 show "
+                                   "another triangle, 2 of them a hole.")
+        self.assertTrue(lines[1].startswith("- Against moderngl 1, a draw is 2.0× slower in 1 of 1 scene; "))
         self.assertEqual(lines[-1], "On 2 threads; `mine`, commit abc. A scene is a mesh at one size.")
 
     def test_in_brief_only_draws_on_two_threads_count(self):

@@ -235,7 +235,7 @@ class ScriptsTest(FolderTest):
         self.write("results/other", bench())
         (self.results / "empty").mkdir()
         text = self.filled("machines", results="results/mine")
-        self.assertIn("- [`mine`](results/mine): Test CPU, 2 cores, avx2, 4 GiB; Test OS; GCC 1, Release; commit abc; `tiled` against ext 4.0× to 8.0× "
+        self.assertIn("- [`mine`](results/mine): Test CPU, 2 cores, avx2, 4 GiB; Test OS; GCC 1, Release; commit abc. Against ext, `tiled` is 4.0× to 8.0× "
                       "faster in 2 of 2 scenes.\n", text)
         self.assertIn("- [`other`](results/other): Test CPU, 2 cores, avx2, 4 GiB; Test OS; GCC 1, Release; commit abc.\n", text)
         self.assertNotIn("empty", text)
@@ -246,7 +246,7 @@ class ScriptsTest(FolderTest):
         self.assertNotIn("ext", text)
         self.write("results", bench_with_peer())
         text = self.filled("peers")
-        self.assertIn("- ext (Ext 1.2): whole frames by `tiled` with AVX2, 256 bits, 4.0× to 8.0× faster in 2 of 2 scenes on 1 thread; 4.0× to 8.0× faster in 2 "
+        self.assertIn("- Against ext (Ext 1.2), whole frames by `tiled` are, with AVX2, 256 bits, 4.0× to 8.0× faster in 2 of 2 scenes on 1 thread; 4.0× to 8.0× faster in 2 "
                       "of 2 scenes on 2 threads. Pictures differ in at most 7 pixels, all depth ties within tolerance.", text)
         self.assertIn("with AVX2, 256 bits, 4.0×", run("summary", "--tables", self.results).stdout)
         coarse = bench_with_peer()
