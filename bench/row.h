@@ -2,17 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/workloads/methods.h"
 #include "bench/workloads/pipelines.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
-#include "raster/traversals.h"
 
 namespace edgewise::bench {
 
@@ -27,13 +24,6 @@ inline constexpr double kTooSlowToRepeat_s = 0.3;
 // Rows that take longer are drawn once. Frames whose backend alone takes longer are left out of the suite.
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
-// Of a frame drawn by newly made objects.
-struct FirstFrame {
-  std::optional<double>
-      peak_bytes;  // growth of the process's resident memory; none if /proc lacks the figures
-  double s;
-};
-
 struct Row {
   // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell, lab
   // or needs
@@ -47,18 +37,10 @@ struct Row {
   std::string peer_version;   // empty: it did not start
   bool device_clock = false;  // a peer's frame by its device's clock
   Execution execution;
-  TileOptions tiles{};
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
-  double pause_s = 0.0;                             // before each frame, not timed
-  std::optional<FirstFrame> first_frame;            // if measured
-  bool keeps_frames = false;                        // whether the duration of each frame is kept
-  std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
-  std::map<std::string, double> events;             // of counted_frames frames, by the counter's name
-  double counted_frames = 0.0;
-  bool wants_cost = false;
+  std::optional<double> peak_bytes;                 // of a first frame, if measured
   double many_rounds_up_to_s = 0.0;  // a shorter draw is repeated more often than other rows are
   double once_s = 0.0;               // duration of the compared draw
-  std::optional<FrameCost> cost;     // if wants_cost
   std::uint64_t depth_ties = 0;      // peers: depth ties within tolerance, px
   // If the row may draw another picture: pixels of another colour; peers: that show another triangle.
   std::optional<std::uint64_t> wrong_px;
@@ -70,11 +52,9 @@ inline bool is_cell(const Row& row) {
   return row.name.starts_with("cell/");
 }
 
-// Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
-// pauses.
+// Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target.
 inline bool is_plain(const Row& row) {
-  return !is_cell(row) && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
-         row.tiles == TileOptions{};
+  return !is_cell(row) && row.execution.target == SimdTarget::best;
 }
 
 }  // namespace edgewise::bench

@@ -19,10 +19,8 @@ namespace {
 
 constexpr int kThreads[] = {1, 2};  // of all rows but a scene's frames, which may have more
 constexpr int kCullThreads = 2;
-constexpr int kPause_ms = 2;
-// The backends whose whole frames are compared by resolution, and how long a frame may take to be repeated as
-// often as cells are.
-constexpr std::string_view kByResolution[] = {"scanline", "tiled"};
+// The backends whose whole frames are repeated as often as cells are, if they are short.
+constexpr std::string_view kCompared[] = {"scanline", "tiled"};
 constexpr double kShortFrame_s = 0.05;
 // The methods that show what exactness costs are repeated as often as cells are.
 constexpr std::string_view kPriced[] = {"float_top_left", "fixed_8", "double_top_left"};
@@ -77,7 +75,6 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : options_.threads) {
         add(workload, Timed::raster, backend, name, threads);
-        rows_.back().wants_cost = backend.name == "tiled";
         add_frame(workload, backend, name, threads);
       }
     for (const SimdTarget target : supported_targets())
@@ -91,18 +88,6 @@ class Suite {
       if (!peer.own_clock) continue;
       add_peer(workload, peer, name + "/clock:device", 1);
       rows_.back().device_clock = true;
-    }
-  }
-
-  // Beside the scene's own rows. `workload_at` makes the scene's workload of a width and height.
-  void add_sizes(const std::string& scene, const std::function<WorkloadPtr(int, int)>& workload_at) {
-    if (options_.size_asked) return;
-    for (const auto& [width, height] : {std::pair{1280, 720}, {3840, 2160}}) {
-      const WorkloadPtr workload = workload_at(width, height);
-      for (const std::string_view backend : kByResolution)
-        for (const int threads : kThreads)
-          add_frame(workload, find_backend(backend), fmt::format("{}/size:{}x{}", scene, width, height),
-                    threads);
     }
   }
 
@@ -134,25 +119,6 @@ class Suite {
     for (const auto& [name, arithmetic] : kArithmetics) {
       add(workload, Timed::raster, find_backend("tiled"), fmt::format("{}/engine:{}", scene, name), 1);
       rows_.back().arithmetic = arithmetic;
-    }
-  }
-
-  // Back to back, a frame may find its memory in the LLC. In a pause, other processes may fill the LLC.
-  void add_tile_stores(const WorkloadPtr& workload, const std::string& scene) {
-    constexpr std::string_view kScenes[] = {"cube", "sphere", "large", "grid64"};
-    if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
-    const auto add_stores = [&](int threads, int pause_ms, bool streaming) {
-      std::string what = scene;
-      if (pause_ms > 0) what += fmt::format("/pause:{}ms", pause_ms);
-      if (streaming) what += "/stores:streaming";
-      add(workload, Timed::frame, find_backend("tiled"), what, threads);
-      rows_.back().pause_s = 1e-3 * pause_ms;
-      if (streaming) rows_.back().tiles.tile_store = TileStore::streaming;
-    };
-    for (const int threads : kThreads) {
-      add_stores(threads, 0, true);
-      add_stores(threads, kPause_ms, false);
-      add_stores(threads, kPause_ms, true);
     }
   }
 
@@ -256,8 +222,7 @@ class Suite {
   void add_frame(const WorkloadPtr& workload, const BackendInfo& backend, const std::string& what,
                  int threads) {
     add(workload, Timed::frame, backend, what, threads);
-    if (std::find(std::begin(kByResolution), std::end(kByResolution), backend.name) !=
-        std::end(kByResolution))
+    if (std::find(std::begin(kCompared), std::end(kCompared), backend.name) != std::end(kCompared))
       rows_.back().many_rounds_up_to_s = kShortFrame_s;
   }
 
@@ -344,10 +309,6 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
         std::make_shared<Workload>(size.width, size.height, Cull::back, [source] { return source; });
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
-    if (!stream)
-      suite.add_sizes(name, [&source](int width, int height) {
-        return std::make_shared<Workload>(width, height, Cull::back, [source] { return source; });
-      });
     if (options.methods)
       for (const lab::LabScene& own : lab::own_scenes(name, stream != nullptr, [source, size] {
              return lab::SizedDrawable{source.drawable, size};
@@ -364,9 +325,6 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
     suite.add_engine_runs(workload, name);
-    suite.add_tile_stores(workload, name);
-    if (!scene.stream)
-      suite.add_sizes(name, [&](int width, int height) { return suite.scene_workload(name, width, height); });
   }
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();

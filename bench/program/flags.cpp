@@ -72,15 +72,11 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
       ->type_name("FILE");
-  parser.add_option("--model_out", flags.model_out, "Write the cost model's estimates to this file")
-      ->type_name("FILE");
   parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
   parser.footer(
       "Google Benchmark's other flags work too, for example --benchmark_filter=REGEX,\n"
       "--benchmark_list_tests, --benchmark_repetitions=N, --benchmark_min_time=SECONDS and\n"
       "--benchmark_format=console|json|csv.\n"
-      "With every filter, random reads are timed between the rows. They show whether other processes\n"
-      "filled the last-level cache.\n"
       "Exit status: 0 done, 1 a row drew wrong pixels, 2 bad input or failure, 130 after Ctrl-C.\n"
       "If a reader such as `head` closes standard output early, that is no error.");
   try {

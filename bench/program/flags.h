@@ -12,7 +12,6 @@ namespace edgewise::bench {
 struct Flags {
   SuiteOptions suite;
   std::string out;                     // --benchmark_out
-  std::string model_out;               // --model_out
   std::vector<std::string> benchmark;  // the remaining options, for Google Benchmark
   std::vector<std::string> known;      // the names of all options, Google Benchmark's included
   std::optional<int> repetitions;      // of each row, if the user asked

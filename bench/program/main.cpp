@@ -2,7 +2,6 @@
 // repetitions, so that a burst of other load on the machine does not hit one row alone.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <linux/perf_event.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,9 +14,7 @@
 
 #include "bench/program/flags.h"
 #include "bench/program/reporter.h"
-#include "bench/workloads/events.h"
 #include "bench/workloads/memory.h"
-#include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "core/parallel.h"
 #include "files/atomic_file.h"
@@ -46,8 +43,8 @@ constexpr int kRounds = 9, kManyRounds = 36;
 // A quick run begins no round beyond kRounds after this time.
 constexpr double kQuickRounds_s = 180.0;
 
-// A backend's whole frames: the first one's memory and duration, and how long the slowest take.
-bool keeps_frames(const Row& row) {
+// A backend's whole frames.
+bool measures_memory(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
          row.once_s < kTooSlowToDrawTwice_s;
 }
@@ -131,10 +128,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
       rows[i].once_s = rows[i - 1].once_s;
     else
       stage.compare(rows[i]);
-    if (keeps_frames(rows[i])) {
-      rows[i].keeps_frames = true;
-      rows[i].first_frame = draw_first_frame(rows[i]);
-    }
+    if (measures_memory(rows[i])) rows[i].peak_bytes = peak_bytes_of_first_frame(rows[i]);
     if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
   }
 }
@@ -148,15 +142,6 @@ void leave_out_slow_frames(std::vector<Row>& rows) {
   });
 }
 
-// Keeps all threads of the row awake, so that only the caches differ from frames back to back.
-void pause_before(const Row& row) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(row.pause_s);
-  parallel_for(row.execution.threads, row.execution.threads, [end](int) {
-    while (std::chrono::steady_clock::now() < end) {
-    }
-  });
-}
-
 // Rows that are not repeated: wrong ones, and those that the comparison has already timed.
 bool is_known(const Row& row) {
   return !row.error.empty() || (row.once_s > kTooSlowToRepeat_s && !is_cell(row));
@@ -167,38 +152,6 @@ int rounds_of(const Row& row, const Flags& flags) {
   return flags.repetitions.value_or(row.once_s < row.many_rounds_up_to_s ? kManyRounds : kRounds);
 }
 
-// With fewer, the 99th percentile would be the slowest of all.
-constexpr std::size_t kFramesForP99 = 100;
-
-// The smallest value that at least `share` of all values do not exceed.
-double percentile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-struct FrameEvent {
-  std::string name;
-  EventCounter counter;
-};
-
-// Opened by the thread that draws.
-std::span<const FrameEvent> frame_events() {
-  static const FrameEvent kEvents[] = {{"instructions", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS}},
-                                       {"cache_misses", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_CACHE_MISSES}}};
-  return kEvents;
-}
-
-// Other threads' events are not counted.
-bool counts_events(const Row& row) {
-  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 1;
-}
-
-void add_events(Row& row, double sign) {
-  for (const auto& [name, counter] : frame_events()) row.events[name] += sign * counter.count();
-}
-
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (is_known(row)) {
@@ -206,20 +159,9 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   } else {
     // The caches hold another row's data. A long draw needs no warm-up.
     if (stage.renew_memory(row) || row.once_s < kRepetition_s) stage.work(row);
-    if (counts_events(row)) add_events(row, -1.0);
     for (auto _ : state) {
-      if (row.pause_s > 0.0) {
-        state.PauseTiming();
-        pause_before(row);
-        state.ResumeTiming();
-      }
       const double frame_s = stage.timed_work_s(row);
       if (row.device_clock) state.SetIterationTime(frame_s);
-      if (row.keeps_frames) row.frames_s.push_back(frame_s);
-    }
-    if (counts_events(row)) {
-      add_events(row, 1.0);
-      row.counted_frames += static_cast<double>(state.iterations());
     }
   }
   auto& counters = state.counters;
@@ -236,13 +178,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   counters["height"] = workload.height();
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
-  if (row.first_frame) {
-    counters["first_ms"] = row.first_frame->s * 1e3;
-    if (row.first_frame->peak_bytes) counters["peak_bytes"] = *row.first_frame->peak_bytes;
-  }
-  if (row.frames_s.size() >= kFramesForP99) counters["p99_ms"] = percentile(row.frames_s, 0.99) * 1e3;
-  for (const auto& [name, events] : row.events)
-    if (!std::isnan(events)) counters[name] = events / row.counted_frames;
+  if (row.peak_bytes) counters["peak_bytes"] = *row.peak_bytes;
   if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
     counters["wrong_px"] = static_cast<double>(*wrong_px);
   if (row.timed == Timed::frontend) return;
@@ -273,32 +209,9 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, int
   }
 }
 
-using RandomReadRow = std::pair<ReadRow, std::shared_ptr<RandomReads>>;
-
-// Registered whatever the filter: they show how fast the machine's caches were while the rows were timed.
-void register_random_reads(std::span<const RandomReadRow> rows) {
-  constexpr std::size_t kReads = 10'000;
-  constexpr int kIterations = 5;
-  for (const auto& [row, reads] : rows)
-    benchmark::RegisterBenchmark(
-        row.name.data(),
-        [reads = reads, row = row](benchmark::State& state) {
-          if (row.fits_cache) benchmark::DoNotOptimize(reads->advance(reads->lines()));  // refills the cache
-          for (auto _ : state) benchmark::DoNotOptimize(reads->advance(kReads));
-          state.counters["reads"] = kReads;
-          state.counters["bytes"] = static_cast<double>(row.bytes);
-        })
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime()
-        ->Iterations(kIterations);
-}
-
 // In each round rows are timed once, in random order: repetition i of one row and of another form a pair.
 void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter& reporter) {
   tools::Progress progress;
-  std::vector<RandomReadRow> reads;
-  for (const ReadRow& row : random_read_rows())
-    reads.emplace_back(row, std::make_shared<RandomReads>(row.bytes));
   int most_rounds = 1, made = 0, all = 0;
   for (const Row& row : rows) {
     most_rounds = std::max(most_rounds, rounds_of(row, flags));
@@ -313,7 +226,6 @@ void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter
     if (flags.suite.quick && !flags.repetitions && round >= kRounds && spent.count() > kQuickRounds_s) break;
     benchmark::ClearRegisteredBenchmarks();
     register_rows(rows, stage, flags, round, begin);
-    register_random_reads(reads);
     benchmark::RunSpecifiedBenchmarks(&reporter, ".");
   }
 }
@@ -349,25 +261,6 @@ void add_context(const Flags& flags, std::span<const Row> rows, std::span<const 
   for (const std::string& scene : inputs)
     if (tools::is_file_path(scene))
       benchmark::AddCustomContext("file " + name_in_rows(scene), describe_file(tools::input_path(scene)));
-  const std::string& error = frame_events().front().counter.error();
-  benchmark::AddCustomContext("perf_event",
-                              error.empty() ? "available" : fmt::format("not available ({})", error));
-}
-
-// The cost model's parts, one line per row.
-std::string model_json(std::span<const Row> rows) {
-  constexpr double kMs = 1e3;
-  std::string lines;
-  for (const Row& row : rows) {
-    if (!row.cost || !row.error.empty()) continue;
-    const auto& [blocks, read_s, blocks_s, write_s, tiles_s] = *row.cost;
-    const nlohmann::ordered_json parts{
-        {"name", row.name},         {"covered_blocks", blocks.covered}, {"won_blocks", blocks.won},
-        {"read_ms", read_s * kMs},  {"blocks_ms", blocks_s * kMs},      {"write_ms", write_s * kMs},
-        {"tiles_ms", tiles_s * kMs}};
-    lines += (lines.empty() ? "\n" : ",\n") + tools::json_text(parts);
-  }
-  return "{\n\"costs\": [" + lines + "\n]\n}\n";
 }
 
 int run(int argc, char** argv) {
@@ -377,7 +270,6 @@ int run(int argc, char** argv) {
   initialize_benchmark(flags);
   std::vector<tools::Output> files;
   if (!flags.out.empty()) files.push_back({"--benchmark_out", flags.out});
-  if (!flags.model_out.empty()) files.push_back({"--model_out", flags.model_out});
   std::vector<std::string> inputs = flags.suite.scenes;
   inputs.insert(inputs.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
   std::vector<std::string> read = inputs;
@@ -385,8 +277,6 @@ int run(int argc, char** argv) {
   tools::check_files(files, read);
   std::optional<AtomicFile> out;
   if (!flags.out.empty()) out.emplace(flags.out);
-  std::optional<AtomicFile> model_out;
-  if (!flags.model_out.empty()) model_out.emplace(flags.model_out);
   auto selected = select(make_suite(flags.suite));
   if (!selected) return 2;
   if (selected->empty()) return 0;
@@ -394,23 +284,18 @@ int run(int argc, char** argv) {
 
   leave_out_missing_peers(rows, flags.suite.all_peers);
   if (rows.empty()) return 2;
-  Stage stage(!flags.model_out.empty());
+  Stage stage;
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
   add_context(flags, rows, inputs);
   std::vector<std::string> names;
   for (const auto& row : rows) names.push_back(row.name);
-  for (const auto& row : random_read_rows()) names.emplace_back(row.name);
   Reporter reporter(names);
   time_all(rows, stage, flags, reporter);
   reporter.finish();
   if (out) {
     out->stream() << reporter.json();
     out->commit();
-  }
-  if (model_out) {
-    model_out->stream() << model_json(rows);
-    model_out->commit();
   }
   return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
 }

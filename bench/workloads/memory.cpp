@@ -2,12 +2,9 @@
 
 #include <malloc.h>
 
-#include <chrono>
 #include <fstream>
 #include <optional>
 #include <string>
-
-#include "lab/cases/backend_comparison.h"
 
 namespace edgewise::bench {
 
@@ -29,24 +26,20 @@ void reset_peak() {
 
 }  // namespace
 
-FirstFrame draw_first_frame(const Row& row) {
+std::optional<double> peak_bytes_of_first_frame(const Row& row) {
   malloc_trim(0);  // otherwise the frame would use freed memory that is still resident, and appear free
   reset_peak();
   const auto before = status_bytes("VmRSS:"), peak_before = status_bytes("VmHWM:");
   Workload& workload = *row.workload;
-  const auto begin = std::chrono::steady_clock::now();
-  FirstFrame first{};
   {
     Frontend frontend;
     Framebuffer frame(workload.width(), workload.height());
-    workload.draw(frontend, *lab::make(*row.backend, row.tiles), frame.view(), row.execution);
-    first.s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    workload.draw(frontend, *row.backend->make(), frame.view(), row.execution);
   }
   const auto peak = status_bytes("VmHWM:");
   constexpr double kTolerance = 1 << 20;  // bytes: other threads' allocations, and Linux's coarse counters
-  if (before && peak_before && peak && *peak_before <= *before + kTolerance)
-    first.peak_bytes = *peak - *before;
-  return first;
+  if (before && peak_before && peak && *peak_before <= *before + kTolerance) return *peak - *before;
+  return std::nullopt;
 }
 
 }  // namespace edgewise::bench

@@ -34,7 +34,7 @@ Framebuffer& Stage::frame(const Row& row) {
 }
 
 Backend& Stage::backend(const Row& row) {
-  if (!row.arithmetic) return backends_.get(*row.backend, row.tiles);
+  if (!row.arithmetic) return backends_.get(*row.backend, {});
   auto& engine = engines_[*row.arithmetic];
   if (!engine) engine = lab::make_engine(*row.arithmetic);
   return *engine;
@@ -94,9 +94,6 @@ void Stage::compare(Row& row) {
   // The first draw also allocates memory. Later draws time the row, and short rows are drawn more often.
   for (const double limit_s : {kTooSlowToDrawTwice_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
-  if (row.wants_cost && estimates_)
-    row.cost = cost_model_.estimate(row.workload->triangles(), row.workload->blocks(), frame(row),
-                                    row.execution.threads);
 }
 
 }  // namespace edgewise::bench

@@ -15,12 +15,8 @@ namespace edgewise::bench {
 
 class Stage {
  public:
-  // `estimates`: whether rows get the cost model's estimates, which take longer than a draw.
-  explicit Stage(bool estimates = true) : estimates_(estimates) {}
-
-  // Draws the row and compares every bit with the reference. Sets once_s, `error` if a bit differs, and
-  // the cost model's estimate if the row has wants_cost and this stage estimates. Requires a prepared
-  // workload, if the row has one.
+  // Draws the row and compares every bit with the reference. Sets once_s, and `error` if a bit differs.
+  // Requires a prepared workload, if the row has one.
   void compare(Row& row);
 
   // Drops the engine's memory, so that it gets the same addresses with every arithmetic. Others can change a
@@ -45,8 +41,6 @@ class Stage {
   std::map<lab::EngineArithmetic, std::unique_ptr<Backend>> engines_;
   PeerStage peers_;
   std::map<std::string, std::function<void()>> draws_;  // of methods and pipelines, by row name
-  CostModel cost_model_;
-  bool estimates_;
 };
 
 }  // namespace edgewise::bench

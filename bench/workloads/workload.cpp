@@ -55,11 +55,6 @@ void Workload::prepare(bool keep_scene) {
   prepared_ = true;
 }
 
-const BlockCounts& Workload::blocks() {
-  if (!blocks_) blocks_ = count_blocks(triangles_, width_, height_);
-  return *blocks_;
-}
-
 Framebuffer Workload::drawn() const {
   Framebuffer frame(width_, height_);
   backends().front().make()->draw(triangles_, frame.view(), {kBackground},

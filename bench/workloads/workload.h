@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/models/cost_model.h"
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
 #include "lab/hidden_faces.h"
@@ -37,9 +36,6 @@ class Workload {
 
   // Before prepare(); 8 otherwise.
   void set_subpixel_bits(int bits) { subpixel_bits_ = bits; }
-
-  // Counted by the first call.
-  const BlockCounts& blocks();
 
   // With `facing`: the pixels of its reference that differ from the exact picture (culled by `mesh_cull`).
   std::optional<std::uint64_t> wrong_px() const { return wrong_px_; }
@@ -72,7 +68,6 @@ class Workload {
   std::vector<ScreenTriangle> triangles_;
   std::uint64_t submitted_ = 0, covered_px_ = 0;
   std::optional<std::uint64_t> wrong_px_;
-  std::optional<BlockCounts> blocks_;
   std::optional<Framebuffer> reference_;
 };
 

@@ -8,52 +8,30 @@ from bench_rows import LABORATORY, Row, facts_of
 from program import parsed
 
 
-@dataclass(frozen=True)
-class Family:
+class Family(NamedTuple):
     """The wording of a family's figures."""
     name: str
     errors: str  # the errors counted, with their unit
     trials: str  # the key of a scene's number of trials
     trial: str  # what is tried
-    cost: str
-    reading: str  # how to read the chart of errors against speed; empty: plot_frontier.py draws it, or the family is not timed
-    truths: tuple = ("score",)  # keys of the scores: the main truth first
-    kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
+    truth: str = "score"  # the key of the scores that are shown
     beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
 
-    def beyond_note(self, rates):
-        return f". {self.beyond}" if any(rate > 1e6 for rate in rates) else ""
 
-    def kind(self, method):
-        if method.ours:
-            return "ours"
-        return next((kind for kind, starts in self.kinds.items() if method.name.startswith(starts)), "other")
-
-
-PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 FAMILIES = {family.name: family for family in (
-    Family("coverage", "wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "ns per covered pixel",
-           "", ("source", "snapped"),
-           {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
-            "tiled, other numbers": ("engine",), "peers": PEERS},
-           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
-    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "covered pixels", "ns per covered pixel",
-           "The visible triangle of a pixel is judged by exact planes on the snapped positions. All methods share the same exact "
-           "coverage.", ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
-           {"drawing in order": ("painter", "submission"),
-            "depth buffer": ("float", "reversed", "unorm")}),
-    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "visible faces", "ns per face",
-           "Front faces are judged by the exact sign of the projected area before any snapping. Filled: no misjudged face given the "
-           "snapped positions.", ("source", "snapped"),
-           {"signed area": ("float_area",), "normal": ("normal",)}),
-    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "covered pixels", "ns per covered pixel",
-           "Pixels are judged by rays that need no clipping; differences within 1/64 px of an edge do not count.",
-           beyond="More than 10⁶: pixels drawn where nothing should be count as well"),
+    Family("coverage", "wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "source",
+           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box."),
+    # All methods draw the same snapped triangles, so the other truth adds the same to each.
+    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "covered pixels", "snapped"),
+    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "visible faces", "source"),
+    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "covered pixels",
+           beyond="More than 10⁶: pixels drawn where nothing should be count as well."),
     Family("projection", "samples of single triangles that differ from the exact projection of the scene's vertices, per 10⁶ edge crossings",
-           "crossings", "edge crossings", "", "", kinds={"one matrix": ("matrix",), "exact, then rounded": ("exact",)}),
+           "crossings", "edge crossings"),
 )}
 
 
+PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 SCALAR = "scalar"  # the name of the form without SIMD
 LEAST_SHARE = 0.01  # of the trials of a family's largest scene
 UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
@@ -63,10 +41,7 @@ UNLIMITED_PX = 4096  # the largest triangles for which any method promises anyth
 class Method:
     name: str
     source: str
-    promise: str
-    exact: bool
     max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
-    simd_note: str = ""  # coverage: why there is no SIMD form
     engine: bool = False  # our SIMD engine with one kind of numbers
     other_bits: bool = False  # projection: one of many subpixel bits
 
@@ -94,29 +69,18 @@ class Cost(NamedTuple):
     """The times of a method on a scene."""
     row: Row
     items: int  # covered pixels, or faces
-    triangles: int
 
     @property
     def ns(self):
         """Median, per item."""
         return 1e6 * self.row.median_ms / self.items
 
-    @property
-    def interval(self):
-        return tuple(1e6 * ms / self.items for ms in self.row.interval_ms)
-
-    @property
-    def mtri(self):
-        """10⁶ triangles per second, median."""
-        return 1e-3 * self.triangles / self.row.median_ms
-
 
 class Cracks(NamedTuple):
-    """Samples where triangles meet: at edges that two share, drawn by neither or by both; at T-junctions; and folds."""
+    """Samples where triangles meet: at edges that two share, drawn by neither or by both; and at T-junctions."""
     gaps: int
     double_hits: int
     t_junctions: int
-    folds: int | None = None  # if it is known how the method rounds
 
     @property
     def at_shared_edges(self):
@@ -144,8 +108,6 @@ class Measured:
     """One method on one scene."""
     method: Method
     rate: float  # errors per 10⁶
-    bound: float | None  # 95 % upper bound per 10⁶, only where no error was seen
-    snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
     cracks: Cracks | None = None  # coverage only; None in older measurements of peers
     forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty where the scene is not timed
     seen: tuple | None = None  # coverage only: pixels with the wrong visible triangle, and those where something shows through
@@ -160,19 +122,11 @@ class Measured:
         """The cost of the SIMD form on one thread, or None."""
         return next((cost for (target, threads), cost in self.forms.items() if target != SCALAR and threads == 1), None)
 
-    @property
-    def costs(self):
-        """By threads: the SIMD form if there is one."""
-        targets = {target for target, _ in self.forms}
-        shown = next(iter(targets - {SCALAR} or targets), None)
-        return {threads: cost for (target, threads), cost in self.forms.items() if target == shown}
-
 
 @dataclass(frozen=True)
 class Scene:
     name: str
     family: str
-    summary: str
     trials: int
     measured: tuple
     apart: tuple = ()  # the measurements of methods that are `apart`; coverage only
@@ -187,18 +141,12 @@ class Scene:
         """The measurement of the method with this name, or None."""
         return next((m for m in (*self.measured, *self.apart) if m.method.name == method), None)
 
-    @property
-    def single(self):
-        """The measurements on one thread."""
-        return [m for m in self.measured if 1 in m.costs]
-
 
 @dataclass(frozen=True)
 class Accuracy:
     methods: dict  # by family, in the registry's order
     scenes: tuple
-    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) per frame, "double_hits": …,
-    # "total_gaps": over all frames, "total_double_hits", "total_wrong": samples})]}
+    cube: dict | None  # {"frames", "methods": [(Method, gaps, double hits, wrong samples)]}: of all frames
     flicker: dict = field(default_factory=dict)  # {moving scene: {method's name: superfluous changes per 10⁶ true ones}}
 
     def of(self, family):
@@ -220,17 +168,11 @@ class Accuracy:
         return {method.name: sum(m.rate > 0 for scene in self.of(family) for m in scene.measured if m.method == method)
                 for method in self.methods[family]}
 
-    def main_scene(self, family):
-        """The first timed one, which charts and tables of the family show; None if none is timed."""
-        return next((scene for scene in self.of(family) if scene.single), None)
-
 
 @dataclass(frozen=True)
 class Curve:
     method: str
-    exact: bool
     points: tuple
-    trials: tuple  # at each point
     starts_to_fail: float | None
 
 
@@ -238,19 +180,15 @@ class Curve:
 class Sweep:
     name: str
     family: str
-    summary: str
     x: dict
-    y: dict
     curves: tuple
 
 
 def parse_measured(entry, family, method, forms):
-    scores = [entry[truth] for truth in FAMILIES[family].truths]
-    bound = scores[0].get("bound_per_million")
-    cracks = Cracks(**{key: int(count) for key, count in entry["cracks"].items()}) if "cracks" in entry else None
-    seen = tuple(int(scores[0][key]) for key in ("wrong_pixels", "wrong_surface_pixels")) if cracks else None
-    return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
-                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, cracks, forms, seen)
+    score = entry[FAMILIES[family].truth]
+    cracks = Cracks(*(int(entry["cracks"][key]) for key in Cracks._fields)) if "cracks" in entry else None
+    seen = tuple(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")) if cracks else None
+    return Measured(method, float(score["errors_per_million"]), cracks, forms, seen)
 
 
 def parse_cube(data, methods):
@@ -258,15 +196,10 @@ def parse_cube(data, methods):
     if not cube:
         return None
 
-    def worst_of(entry):
-        counts = ("gaps", "double_hits")
-        return {**{key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in counts},
-                **{f"total_{key}": int(entry[key]["total"]) for key in counts},
-                "total_wrong": sum(int(entry[key]["total"]) for key in ("extra", "missing"))}
-
-    rows = [(methods["coverage", entry["name"]], worst_of(entry)) for entry in cube["methods"]
-            if not methods["coverage", entry["name"]].apart]
-    return {"frames": int(cube["frames"]), "methods": rows}
+    found = [(methods["coverage", entry["name"]], {key: int(entry[key]["total"]) for key in ("gaps", "double_hits", "extra", "missing")})
+             for entry in cube["methods"]]
+    return {"frames": int(cube["frames"]), "methods": [(method, of["gaps"], of["double_hits"], of["extra"] + of["missing"])
+                                                       for method, of in found if not method.apart]}
 
 
 def times_of(bench):
@@ -281,8 +214,7 @@ def times_of(bench):
 
 def parse_accuracy(data, bench=None):
     times = times_of(bench)
-    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]), m.get("max_side_px"),
-                                                   m.get("simd_note", ""), bool(m.get("engine")), bool(m.get("other_bits")))
+    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m.get("max_side_px"), bool(m.get("engine")), bool(m.get("other_bits")))
                for m in data["methods"]}
     scenes = []
     for scene in data["scenes"]:
@@ -290,11 +222,11 @@ def parse_accuracy(data, bench=None):
         triangles = int(scene["triangles"])
         items = triangles if family.name == "facing" else int(scene["covered"])
         measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]],
-                                   {form: Cost(row, items, triangles) for form, row in
+                                   {form: Cost(row, items) for form, row in
                                     times.get((family.name, scene["name"], entry["name"]), {}).items()
                                     if row.counters["triangles"] == triangles})  # else timed on a scene of another size
                     for entry in scene["methods"]]
-        scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
+        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]),
                             tuple(m for m in measured if not m.method.apart), tuple(m for m in measured if m.method.apart),
                             int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
     by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]
@@ -313,16 +245,13 @@ def with_peers(data, peers):
 
 def parse_curve(entry):
     points = tuple((float(x), float(y)) for x, y in entry["points"])
-    trials = tuple(int(n) for n in entry["trials"])
     fails = entry["starts_to_fail"]
-    return Curve(entry["method"], bool(entry["exact"]), points, trials, None if fails is None else float(fails))
+    return Curve(entry["method"], points, None if fails is None else float(fails))
 
 
 def parse_stability(data):
-    axes = ("name", "log")
-    return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, sweep["summary"],
-                       {"unit": sweep["x"].get("unit", ""), **{key: sweep["x"][key] for key in axes}},
-                       {key: sweep["y"][key] for key in (*axes, "tolerance")}, tuple(map(parse_curve, sweep["curves"])))
+    return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, {"name": sweep["x"]["name"], "unit": sweep["x"].get("unit", "")},
+                       tuple(map(parse_curve, sweep["curves"])))
                  for sweep in data["sweeps"])
 
 

@@ -1,15 +1,15 @@
-"""Reads the files of a run: in results/MACHINE bench.json (Google Benchmark's format), model.json and machine.json.
+"""Reads the files of a run: in results/MACHINE bench.json (Google Benchmark's format) and machine.json.
 
 A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
 BACKEND+frontend, "cell" for a whole frame of factors.py, "lab" for a method of the laboratory, or "needs" for a pipeline
-of it. Rows random_read/WHERE measure the machine and draw nothing.
+of it. Older results have rows random_read/WHERE, too, which measure the machine and draw nothing.
 """
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import noise
-from program import BadInput, parsed, read_json
+from program import BadInput, read_json
 
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 LABORATORY = "lab"
@@ -82,8 +82,6 @@ def parse_name(name):
 class Bench:
     context: dict
     rows: dict  # by name
-    random_reads: dict = field(default_factory=dict)  # rows that measure the machine, by what is read
-    costs: dict = field(default_factory=dict)  # by the name of the timed row: the parts of the cost model
 
     @property
     def backends(self):
@@ -108,11 +106,6 @@ class Bench:
         return [r for r in self.rows.values() if key in r.keys and r.times_ms]
 
     @property
-    def threads(self):
-        """The numbers of threads of the main table, ascending."""
-        return sorted({int(r.keys["threads"]) for r in self.rows.values() if r.scene and set(r.keys) == {"threads"}})
-
-    @property
     def scenes(self):
         """The scenes of the main table, in the suite's order."""
         plain = (r.scene for r in self.rows.values() if r.scene and set(r.keys) == {"threads"})
@@ -135,13 +128,6 @@ def source_of(path, data):
     """The machine of a record in results/, and the commit if it holds one."""
     commit = data.get("commit")
     return f"`{path.parent.name}`" + (f", commit {commit}" if commit else "")
-
-
-COSTS = ("covered_blocks", "won_blocks", "read_ms", "blocks_ms", "write_ms", "tiles_ms")
-
-
-def parse_costs(data):
-    return {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
 
 
 def read_bench(folder_or_file):
@@ -169,10 +155,7 @@ def read_bench(folder_or_file):
     rounds = int(context.get("rounds", 0))  # of most rows; older runs shuffled all repetitions
     for row in rows.values():
         row.rounds = 0 < rounds <= len(row.times_ms)
-    reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
-    model = path.parent / "model.json"
-    costs = parsed(model, parse_costs, "edgewise_bench --model_out") if path.name == "bench.json" and model.exists() else {}
-    return Bench(context, rows, reads, costs)
+    return Bench(context, {name: row for name, row in rows.items() if row.backend != "random_read"})
 
 
 def describe_machine(machine):

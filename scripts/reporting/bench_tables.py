@@ -1,34 +1,16 @@
 """The tables of a machine's benchmark."""
+import os
+
 import noise
-from bench_rows import describe_machine, gained, gained_interval, order, read_bench
+from bench_rows import describe_machine, gained, order, read_bench
 from factors import duels
 from program import read_json
-from tables import VECTORS, about, enumerated, gain, milliseconds, number, percent, short, speed_up, with_width
+from tables import VECTORS, about, by_order, gain, milliseconds, number, outcome, percent, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
 OURS = "tiled"  # the backend that represents ours
 GPU = "gpu"  # the peer that has no number of threads
-
-
-def random_reads(bench):
-    """[(where, "140 ns (130 to 168)")]: whether other processes filled the last-level cache; empty if not measured."""
-    rows = [(title, bench.random_reads.get(where)) for where, title in
-            (("half_last_cache", "half the last-level cache"), ("memory", "a far larger buffer"))]
-    return [(title, "{1:.0f} ns ({0:.0f} to {2:.0f})".format(*(ms * 1e6 / row.counters["reads"] for ms in
-                                                              (min(row.times_ms), row.median_ms, max(row.times_ms)))))
-            for title, row in rows if row]
-
-
-def fastest(bench, scene):
-    """The fastest backend on the most threads, with its speed-up over the next; several if the order is not settled."""
-    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{bench.threads[-1]}"))]
-    if len(rows) < 2:
-        return "–"
-    first, *others = sorted(rows, key=lambda row: row.median_ms)
-    close = [row.backend for row in others if order(first, row) == 0]
-    return " or ".join([first.backend, *close]) if close else \
-        f"{first.backend}, {about(gained(others[0], first))}"
 
 
 def scene_facts(bench, scene):
@@ -38,17 +20,6 @@ def scene_facts(bench, scene):
     triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
     overdraw = f"{raster.counters['overdraw']:.2f}" if raster else "–"
     return triangles, overdraw
-
-
-def scene_table(bench):
-    """Header and lines: a line per scene, with a backend's ms on each number of threads in one cell."""
-    modelled = list(dict.fromkeys(row.backend for row in bench.rows.values() if estimates_ms(bench, row)))
-    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), *(f"{b} / estimate" for b in modelled), "fastest"]
-    lines = []
-    for scene in bench.scenes:
-        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in bench.threads) for b in bench.backends]
-        lines.append([scene, *scene_facts(bench, scene), *times, *(over_estimate(bench, b, scene) for b in modelled), fastest(bench, scene)])
-    return header, lines
 
 
 def speed_table(bench):
@@ -61,68 +32,10 @@ def speed_table(bench):
             best = all(order(row, other) < 0 for other in ours.values() if other is not row)
             return f"**{milliseconds(row)}**" if best and len(ours) > 1 else milliseconds(row)
 
-        lines.append([scene, scene_facts(bench, scene)[0],
+        lines.append([scene, *scene_facts(bench, scene),
                       *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
                       *(milliseconds(peer_frame(bench, peer, scene, max(THREADS))) for peer in bench.peers)])
-    return ["scene", "triangles", *bench.backends, *bench.peers], lines
-
-
-def tails_table(bench):
-    """Header and lines: how long whole frames of ours take at the median, in the slowest of a hundred, and at first; and their events."""
-    names = [backend for backend in bench.backends if any(row.backend == backend for row in tailed(bench))]
-    counted = any(EVENTS[0] in row.counters for row in bench.rows.values())
-    columns = ["median / p99, ms", "first, ms", *(["instructions / cache misses"] if counted else [])]
-
-    def cells(backend, scene):
-        return [*tail_cells(bench.frame(backend, scene, max(THREADS))), *([event_cell(bench.frame(backend, scene, 1))] if counted else [])]
-
-    lines = [[scene, *(cell for backend in names for cell in cells(backend, scene))]
-             for scene in bench.scenes if any(row.scene == scene for row in tailed(bench))]
-    return ["scene", *(f"{backend}, {what}" for backend in names for what in columns)], lines
-
-
-def tailed(bench):
-    return [row for row in bench.sweep("threads") if "first_ms" in row.counters]
-
-
-def tail_cells(row):
-    if row is None or "first_ms" not in row.counters:
-        return "–", "–"
-    p99 = row.counters.get("p99_ms")  # None if too few frames were timed
-    return f"{milliseconds(row)} / {number(p99) if p99 else '–'}", number(row.counters["first_ms"])
-
-
-EVENTS = ("instructions", "cache_misses")  # per frame of a row on one thread
-
-
-def event_cell(row):
-    return " / ".join(short(row.counters[event]) if row and event in row.counters else "–" for event in EVENTS)
-
-
-def events_sentence(bench):
-    """Where the events of tails_table() were counted, or why not; nothing of older results."""
-    allowed = bench.context.get("perf_event")
-    if allowed == "available":
-        return "Instructions and cache misses are those of a frame on one thread, in user space.\n"
-    return f"Instructions and cache misses are left out: on this machine `perf_event` is {allowed}.\n" if allowed else ""
-
-
-# Of the rows of whole frames: the keys of each size.
-RESOLUTIONS = {"720p": "/size:1280x720", "1080p": "", "4K": "/size:3840x2160"}
-
-
-def resolution_table(bench):
-    """Header and lines: which of two backends draws whole frames faster at each size, in scenes and files with a camera."""
-    def winner(*rows):
-        if not all(rows):
-            return "–"
-        first, other = rows if order(*rows) < 0 else reversed(rows)
-        return f"{first.backend}, {about(gained(other, first))}" if order(*rows) else "not settled"
-
-    lines = [[bench.context.get(f"file {scene}", scene), scene_facts(bench, scene)[0],
-              *(winner(*(bench.frame(who, scene + keys, max(THREADS)) for who in ("scanline", OURS))) for keys in RESOLUTIONS.values())]
-             for scene in bench.scenes if bench.frame(OURS, scene + RESOLUTIONS["4K"], max(THREADS))]
-    return ["scene", "triangles", *RESOLUTIONS], lines
+    return ["scene", "triangles", "overdraw", *bench.backends, *bench.peers], lines
 
 
 def peer_frame(bench, peer, scene, threads):
@@ -149,78 +62,23 @@ def compared_targets(bench, peer):
     return [(widest, pairs(bench, peer)), *((target, found) for target, found in same if found)]
 
 
-def peer_table(bench, peer):
-    """Header and lines: one line per scene that the peer drew; a cell has a figure for each number of threads."""
-    compared = compared_targets(bench, peer)
-    widest = compared[0][1]
-    header = ["scene", f"{peer}, ms", f"{OURS}, ms", *(f"speed-up with {with_width(target)}" for target, _ in compared)]
-    if peer == GPU:
-        header.insert(2, "by its own clock, ms")
-
-    lines = []
-    for scene in bench.scenes:
-        timed = [widest.get((scene, n), (None, None)) for n in THREADS]
-        if any(map(all, timed)):
-            theirs, ours = ([milliseconds(row) for row in side] for side in zip(*timed))
-            cells = [theirs, ours] if peer != GPU else [theirs[:1], [milliseconds(bench.frame(peer, f"{scene}/clock:device", 1))], ours]
-            cells += [[gain(*rows) if (rows := found.get((scene, n))) else "–" for n in THREADS] for _, found in compared]
-            lines.append([scene, *map(" / ".join, cells)])
-    return header, lines
+def faster(found):
+    """In how many scenes of pairs() ours is faster, and by how much, on each number of threads."""
+    of = {n: [(ours, row) for (_, threads), (row, ours) in found.items() if threads == n] for n in THREADS}
+    return "; ".join(f"{outcome(by_order(rows))} on {n} thread{'s' * (n > 1)}" for n, rows in of.items() if rows)
 
 
-def peer_tables(bench, layout):
-    """Every peer's table, laid out by `layout`, below its version and in how many pixels the pictures differ; one line if no peer was
-    timed."""
+def peer_lines(bench):
+    """A line per peer: its version, how much faster ours is, and in how many pixels the pictures differ; or why there is none."""
     told = []
     for peer in timed_peers(bench):
         rows = [row for row, _ in pairs(bench, peer).values()]
         most, why = max((row.counters.get(counter, 0), why) for row in rows for counter, why in
                         (("depth_ties", "depth ties within tolerance"), ("wrong_px", "not portable")))
-        told.append(f"{peer} ({bench.context.get(peer, 'unknown version')}), on {' / '.join(map(str, THREADS))} threads; pictures differ in "
-                    f"at most {most:,.0f} pixels, all {why}:\n\n{layout(*peer_table(bench, peer))}")
-    return "\n\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
-
-
-# Scenes of few large triangles, on which the estimate comes near the measured time.
-DETAILED = ("large", "grid64")
-
-
-def estimates_ms(bench, row):
-    """Three estimates: drawing only the blocks in which a triangle is visible, drawing all covered blocks, and the first
-    with the frame stored tile by tile from a buffer. None if the row has no model."""
-    c = bench.costs.get(row.name) if row else None
-    if not c:
-        return None
-    covered = c["blocks_ms"] * c["covered_blocks"] / c["won_blocks"] if c["won_blocks"] else 0.0
-    return (c["read_ms"] + c["blocks_ms"] + c["write_ms"], c["read_ms"] + covered + c["write_ms"],
-            c["read_ms"] + c["blocks_ms"] + c["tiles_ms"])
-
-
-def over_estimate(bench, backend, scene):
-    """A backend's time over the estimate for tile stores, for each thread count."""
-    rows = [row for n in THREADS if (row := bench.find(f"{backend}/{scene}/threads:{n}"))]
-    found = [row.median_ms / estimates[2] for row in rows if (estimates := estimates_ms(bench, row))]
-    return " / ".join(f"{ratio:.2f}" for ratio in found) or "–"
-
-
-def cost_model_table(bench):
-    """Header and lines: the parts of the estimate for the rows on one thread."""
-    lines = []
-    for backend in bench.backends:
-        for scene in DETAILED:
-            row = bench.find(f"{backend}/{scene}/threads:1")
-            if estimates := estimates_ms(bench, row):
-                parts = (bench.costs[row.name][part] for part in ("read_ms", "blocks_ms", "write_ms"))
-                lines.append([f"`{scene}`, {backend}", milliseconds(row), *map(number, (*parts, *estimates))])
-    return ["1 thread, ms", "measured", "1. read", "2. blocks", "3. write", "estimate", "all covered blocks", "tile by tile"], lines
-
-
-def write_speed_sentence(bench):
-    """How fast whole frames of a mostly empty picture are written, relative to writing the frame only."""
-    scene = "cube"
-    shares = [f"{percent(cost['write_ms'] / frame.median_ms)} ({n} thread{'s' * (n > 1)})" for n in THREADS
-              if (cost := bench.costs.get(f"{OURS}/{scene}/threads:{n}")) and (frame := bench.frame(OURS, scene, n))]
-    return f"`{scene}` is mostly empty: its whole frames in `{OURS}` reach {enumerated(shares)} of the write speed of part 3." if shares else NOT_TIMED
+        speeds = (f"with {with_width(target)}, {faster(found)}" for target, found in compared_targets(bench, peer))
+        told.append(f"- Against {peer} ({bench.context.get(peer, 'unknown version')}), whole frames by `{OURS}` are, {'; '.join(speeds)}. Pictures differ in "
+                    f"at most {most:,.0f} pixels, all {why}.")
+    return "\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
 
 
 # The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal.
@@ -243,13 +101,12 @@ def engine_rows(bench):
 
 
 def against_base(base, row):
-    """The speed relative to the base, bold if it is settled, its interval, and how many pixels are wrong."""
+    """The speed relative to the base, bold if it is settled, and how many pixels are wrong."""
     if row is None:
         return "–"
-    low, high = (f"{end:.2f}" for end in gained_interval(base, row))
-    ratio = f"{gained(base, row):.2f}×"
+    ratio = about(gained(base, row))
     wrong = row.counters.get("wrong_px")
-    return (f"**{ratio}**" if order(row, base) else ratio) + f" ({low} to {high})" + (f"; {number(wrong)} px" if wrong is not None else "")
+    return (f"**{ratio}**" if order(row, base) else ratio) + (f"; {number(wrong)} px" if wrong else "")
 
 
 def engine_table(bench):
@@ -313,58 +170,19 @@ def power_sentence(bench):
             f"{needed} rounds in {percent(WANTED_POWER)}, simulated with their noise.")
 
 
-def store_cells(rule, streaming):
-    """The two times; behind the second, the speed-up of streaming over the rule."""
-    ms = milliseconds(streaming)
-    if rule and streaming:
-        settled = order(rule, streaming) != 0
-        ms += f" ({speed_up(gained(rule, streaming))})" if settled else " (not settled)"
-    return [milliseconds(rule), ms]
-
-
-def tile_stores_table(bench):
-    """Header and lines; no lines if the rows were not timed."""
-    def find(row, keys):
-        return bench.frame(row.backend, row.scene + keys, row.threads)
-
-    streaming = "/stores:streaming"
-    paused = [row for row in bench.sweep("pause") if "stores" not in row.keys]
-    lines = [[row.scene, str(row.threads), *store_cells(find(row, ""), find(row, streaming)),
-              *store_cells(row, find(row, f"/pause:{row.keys['pause']}{streaming}"))] for row in paused]
-    after = f"after {paused[0].keys['pause'].replace('ms', ' ms')}" if paused else "after a pause"
-    return ["scene", "threads", "back to back: rule, ms", "streaming, ms", f"{after}: rule, ms", "streaming, ms"], lines
-
-
 def other_folders(folder):
     """Results folders beside this one that have benchmark rows."""
     return [other for other in sorted(folder.resolve().parent.iterdir())
             if other != folder.resolve() and (other / "bench.json").exists() and (other / "machine.json").exists()]
 
 
-def peers_by_machine(benches):
-    """Header and lines: our backend's speed-up over each peer, on the most threads. `benches`: by the machine's name."""
-    found = [{(peer, *key): rows for peer in bench.peers for key, rows in pairs(bench, peer).items()} for bench in benches.values()]
-    keys = dict.fromkeys((peer, scene) for rows in found for peer, scene, _ in rows)
-    cells = [[rows.get((peer, scene, max(THREADS))) for rows in found] for peer, scene in keys]
-    return (["scene", *(f"`{name}`" for name in benches)],
-            [[f"{scene}, {peer}", *(gain(*rows) if rows else "–" for rows in row)]
-             for (peer, scene), row in zip(keys, cells)])
-
-
-def other_machines(folder, where, layout):
-    """A line and a chart for each other machine, and the peers' ratios on all machines, laid out by `layout` (see
-    markdown()); `where` is `folder` as README.md names it."""
-    beside = other_folders(folder)
-    if not beside:
-        return "No other machine's results lie beside these."
-    benches = {one.resolve().name: read_bench(one) for one in (folder, *beside)}
-    lines, charts = [], []
-    for other in beside:
-        link = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}".lstrip("/")
-        lines.append(f"- [`{other.name}`]({link}): {describe_machine(read_json(other / 'machine.json'))}.")
-        charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
-    header, rows = peers_by_machine(benches)
-    if rows:
-        lines += ["", f"Speed-up of `{OURS}` over its peers, on {max(THREADS)} threads with the widest SIMD of each machine:", "",
-                  layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
-    return "\n".join([*lines, *charts])
+def machines(folder, where):
+    """A line for each machine, this one first: what it is, and how much faster ours is than each peer on it. `where` is `folder` as the
+    README names it."""
+    lines = []
+    for one in (folder, *other_folders(folder)):
+        link, bench = os.path.normpath(f"{where}/../{one.resolve().name}"), read_bench(one)
+        told = [f"Against {peer}, `{OURS}` is {outcome(by_order([(ours, row) for (_, n), (row, ours) in pairs(bench, peer).items() if n == max(THREADS)]))}."
+                for peer in timed_peers(bench)]
+        lines.append(" ".join([f"- [`{one.resolve().name}`]({link}): {describe_machine(read_json(one / 'machine.json'))}.", *told]))
+    return "\n".join(lines)

@@ -1,20 +1,7 @@
-"""The tables of facts: methods and their errors, pixels that are not portable, and what scenes need."""
-from accuracy_rows import FAMILIES
+"""The tables of facts: what a viewer sees of methods, pixels that are not portable, and what scenes need."""
 from bench_rows import facts_of
 from program import BadInput, parsed
-from tables import gain, markdown, number, percent
-
-
-def rate_text(measured):
-    """A rate in a table, with the bound 3/N if no error was seen."""
-    if measured.rate == 0 and measured.bound is not None:
-        return f"0 (<{number(measured.bound)})"
-    return number(measured.rate)
-
-
-def mtri_text(measured):
-    """On one thread."""
-    return number(measured.costs[1].mtri) if measured and 1 in measured.costs else "–"
+from tables import gain, number
 
 
 def pooled_text(rate):
@@ -22,44 +9,21 @@ def pooled_text(rate):
     return number(rate.rate) + (f"; {number(rate.without)} without {rate.mostly_on}" if rate.mostly_on else "")
 
 
-def bold(method):
-    return f"**{method.name}**" if method.ours else method.name
-
-
-def method_table(accuracy, family):
-    scene = accuracy.main_scene(family)
-    header = ["method", "as in", "promise", f"on {scene.name}" if scene else "–", "pooled",
-              "scenes with errors"]
-    erring, scenes = accuracy.scenes_with_errors(family), len(accuracy.of(family))
-    throughput = family == "coverage"  # the scenes of other families do not measure it
-    if throughput:
-        header.insert(4, "10⁶ triangles/s")
-    lines = []
-    for method in accuracy.methods[family]:
-        measured, rate = scene and scene.of(method.name), accuracy.rate(family, method)
-        lines.append([bold(method), method.source, method.promise, rate_text(measured) if measured else "–",
-                      *([mtri_text(measured)] if throughput else []), pooled_text(rate) if rate else "–",
-                      f"{erring[method.name]} of {scenes}"])
-    return markdown(header, lines, "|---|---|---|--:" + "|--:" * (len(header) - 4) + "|")
-
-
-def method_tables(accuracy):
-    return "\n\n".join(f"**{name.capitalize()}**: {family.errors}\n\n{method_table(accuracy, name)}"
-                       for name, family in FAMILIES.items() if accuracy.methods[name])
-
-
 def seen_table(accuracy):
-    """Header and lines: the pixels of each coverage method that a viewer sees to be wrong, still and in motion."""
+    """Header and lines: the pixels of each coverage method that a viewer sees to be wrong, still and in motion. Methods of the same
+    figures share a line."""
     scenes = accuracy.pooled("coverage")
-    lines = []
+    lines = {}
     for method in accuracy.methods["coverage"]:
         seen = [(m.seen, scene.name) for scene in scenes for m in scene.measured
                 if m.method == method and m.seen and scene.in_range_of(method)]
         if not seen:
             continue
-        lines.append([bold(method), *(total_text([(counts[i], scene) for counts, scene in seen]) for i in (0, 1)),
-                      *(number(rates[method.name]) if method.name in rates else "–" for rates in accuracy.flicker.values())])
-    return ["method", "wrong pixels", "showing through", *(f"flicker, `{name}`" for name in accuracy.flicker)], lines
+        figures = (*(total_text([(counts[i], scene) for counts, scene in seen]) for i in (0, 1)),
+                   *(number(rates[method.name]) if method.name in rates else "–" for rates in accuracy.flicker.values()))
+        lines.setdefault(figures, []).append(f"`{method.name}`")
+    return (["method", "wrong pixels", "showing through", *(f"flicker, `{name}`" for name in accuracy.flicker)],
+            [[", ".join(names), *figures] for figures, names in lines.items()])
 
 
 def total_text(counts):
@@ -70,15 +34,14 @@ def total_text(counts):
 
 
 # Pixels that conformant rasterizers may draw differently.
-OUR_BITS = 8
-REASONS = ("edge", "tie", "clip", "depth")
+SHOWN_BITS = (8, 6, 4)
 
 
 def parse_portable(data):
     """{subpixel bits: {scene: entry}}"""
     found = {}
     for entry in data:
-        if not (0 <= entry["unstable"] <= entry["pixels"] and {*REASONS} <= {*entry["reasons"]}):
+        if not 0 <= entry["unstable"] <= entry["pixels"]:
             raise ValueError(f"scene {entry['scene']}")
         found.setdefault(int(entry["subpixel_bits"]), {})[entry["scene"]] = entry
     if len({frozenset(scenes) for scenes in found.values()}) > 1:
@@ -94,14 +57,9 @@ def read_portable(folder):
 
 def portable_table(found):
     """Header and lines, a line per scene."""
-    less = sorted(found.keys() - {OUR_BITS}, reverse=True)
-    header = ["scene", f"may differ at {OUR_BITS} bits", *(f"{reason}, px" for reason in REASONS), *(f"at {bits} bits" for bits in less)]
-
-    def share(bits, scene):
-        return percent(found[bits][scene]["unstable"] / found[bits][scene]["pixels"])
-
-    return header, [[scene, share(OUR_BITS, scene), *(f"{entry['reasons'][reason]:,}" for reason in REASONS),
-                     *(share(bits, scene) for bits in less)] for scene, entry in found.get(OUR_BITS, {}).items()]
+    shown = [found[bits] for bits in SHOWN_BITS if bits in found]
+    return (["scene", *(f"{bits} bits, %" for bits in SHOWN_BITS if bits in found)],
+            [[scene, *(number(100 * of[scene]["unstable"] / of[scene]["pixels"], 2) for of in shown)] for scene in (shown[0] if shown else ())])
 
 
 # What scenes need, and what the tutorials' engines have.

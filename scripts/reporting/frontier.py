@@ -6,19 +6,14 @@ from accuracy_rows import Pooled, pooled
 from bench_rows import gained, mean_gained
 from bench_tables import GPU
 from facts_tables import pooled_text
-from tables import about, by_order, number
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
-# The tutorials' inside tests, and their remedies.
-INSIDE_TESTS = ("float_lt", "float_le", "float_top_left", "double_top_left")
 
 
 class CrackRates(NamedTuple):
     """Cracks per 10⁶ crossings of shared edges."""
     pooled: Pooled
     crossings: int
-    t_junctions: int | None  # samples, in all scenes within the method's range; None if no method errs at T-junctions in any of these
-    folds: int | None  # None if it is not known how the method rounds
 
     @property
     def rate(self):
@@ -34,17 +29,9 @@ class SpeedUp(NamedTuple):
 
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
-    measured = [(m.cracks, scene) for scene in accuracy.of("coverage")
-                if scene.in_range_of(method) and (m := scene.of(method.name)) and m.cracks]
-    found = [(cracks.at_shared_edges, scene) for cracks, scene in measured if scene.shared_crossings >= LEAST_CROSSINGS]
-    if not found:
-        return None
-    crossings = sum(scene.shared_crossings for _, scene in found)
-    rate = pooled([(cracks, scene.shared_crossings, scene.name) for cracks, scene in found], 1e6)
-    at_junctions = [cracks.t_junctions for cracks, scene in measured
-                    if any(m.cracks and m.cracks.t_junctions for m in (*scene.measured, *scene.apart))]
-    folds = [cracks.folds for cracks, _ in measured]
-    return CrackRates(rate, crossings, sum(at_junctions) if at_junctions else None, None if None in folds else sum(folds))
+    found = [(m.cracks.at_shared_edges, scene.shared_crossings, scene.name) for scene in accuracy.of("coverage")
+             if scene.shared_crossings >= LEAST_CROSSINGS and scene.in_range_of(method) and (m := scene.of(method.name)) and m.cracks]
+    return CrackRates(pooled(found, 1e6), sum(crossings for _, crossings, _ in found)) if found else None
 
 
 def timed_scenes(accuracy):
@@ -60,19 +47,6 @@ def reference(accuracy):
         if times and len(times) == len(scenes) and not method.ours:
             products[method] = math.prod(times)
     return min(products, key=products.get) if products else None
-
-
-def simd_gain(accuracy, name, other):
-    """Of one method over another, both with SIMD on one thread: "1.2× (0.9× in a to 1.5× in b; 1/1/0)", the geometric mean of the timed
-    scenes, the range, and in how many it is settled faster, slower, and not; None if a scene lacks one of them, or none is timed."""
-    found = {scene.name: [m and m.simd for m in map(scene.of, (other, name))] for scene in timed_scenes(accuracy)}
-    if not found or not all(map(all, found.values())):
-        return None
-    rows = {scene: (slower.row, faster.row) for scene, (slower, faster) in found.items()}
-    by_gain = sorted(rows, key=lambda scene: gained(*rows[scene]))
-    ends = " to ".join(f"{about(gained(*rows[scene]))} in {scene}" for scene in (by_gain[0], by_gain[-1]))
-    settled = by_order((faster, slower) for slower, faster in rows.values())
-    return f"{about(mean_gained(rows.values())[0])} ({ends}; {'/'.join(str(len(settled[order])) for order in (-1, 1, 0))})"
 
 
 def speed_ups(accuracy):
@@ -124,7 +98,8 @@ def points_of(found, accuracy, form):
 
 
 def frontier_table(accuracy):
-    """Header and lines: watertight methods first, then the fastest first, with their speed-ups and intervals."""
+    """Header and lines: watertight methods first, then the fastest first, with their speed-ups and intervals; without the engine with
+    other numbers, which engine_table() shows."""
     found, base, _ = frontier_figures(accuracy)
     if not found:
         return [], []
@@ -132,34 +107,8 @@ def frontier_table(accuracy):
     def title(method):
         return f"`{method.name}`" + (f", up to {method.limit_px:.0f} px" if method.limit_px else "")
 
-    def form(forms, name, otherwise):
-        return said(forms[name]) if name in forms else otherwise
-
-    def count(samples):
-        return "–" if samples is None else f"{samples:,}"
-
-    header = ["method", "cracks per 10⁶ crossings", "at T-junctions", "folds", "wrong pixels per 10⁶", f"scalar, `{base.name}` = 1×", "SIMD"]
-    lines = [[title(method), pooled_text(cracks.pooled) if cracks.rate else "**0**", count(cracks.t_junctions), count(cracks.folds),
-              pooled_text(wrong_of(accuracy, method)), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
-             for method, (forms, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate > 0, -best(item[1][0]).middle))]
+    header = ["method", "cracks per 10⁶", "wrong pixels per 10⁶", f"scalar, `{base.name}` = 1×", "SIMD"]
+    lines = [[title(method), pooled_text(cracks.pooled) if cracks.rate else "**0**", pooled_text(wrong_of(accuracy, method)),
+              *(said(forms[form]) if form in forms else "–" for form in ("scalar", "simd"))]
+             for method, (forms, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate > 0, -best(item[1][0]).middle)) if not method.engine]
     return header, lines
-
-
-# One loop with three kinds of numbers: rounded, exact on snapped vertices, and finer than any vertex.
-PRICED = ("float_top_left", "fixed_8", "double_top_left")
-EXACT = PRICED[1]
-
-
-def price_table(accuracy):
-    """What exactness costs: the three ways to evaluate edges, with SIMD, beside the exact one."""
-    found, _, _ = frontier_figures(accuracy)
-    named = {method.name: (method, cracks) for method, (forms, cracks) in found.items() if "simd" in forms}
-    if not all(name in named for name in PRICED):
-        return [], []
-    lines = []
-    for name in PRICED:
-        method, cracks = named[name]
-        speed = simd_gain(accuracy, name, EXACT) if name != EXACT else "1×"
-        lines.append([f"`{name}`", speed, pooled_text(cracks.pooled) if cracks.rate else f"0 (<{number(3e6 / cracks.crossings, 2)})",
-                      pooled_text(wrong_of(accuracy, method)), method.promise])
-    return ["edges", "speed", "cracks", "wrong pixels", "guarantee"], lines

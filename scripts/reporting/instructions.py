@@ -4,12 +4,9 @@ import json
 import sys
 
 from program import main_guard, parsed
-from tables import about, short
+from tables import spread
 
 BACKENDS = ("scanline", "tiled")
-HEADER = ["scene", "front end", *(f"`{name}` alone" for name in BACKENDS), *(f"frame with `{name}`" for name in BACKENDS)]
-
-
 def read_counts(lines):
     """{scene: {part: {target: instructions}}}"""
     counts = {}
@@ -19,17 +16,13 @@ def read_counts(lines):
     return counts
 
 
-def instructions_table(path):
-    """NEON's instructions, and how many times as many scalar code has."""
-    def told(parts):
-        neon, scalar = (sum(part[target] for part in parts) for target in ("neon", "scalar"))
-        return f"{short(neon)}, {about(scalar / neon)}"
+def instructions_sentence(path):
+    """How many times as many instructions scalar code has as NEON's, from scene to scene."""
+    def told(counts):
+        ratios = {part: [of[part]["scalar"] / of[part]["neon"] for of in counts.values()] for part in ("frontend", *BACKENDS)}
+        return ", ".join(f"{spread(found)} in {'the front end' if part == 'frontend' else f'`{part}`'}" for part, found in ratios.items())
 
-    def lines(counts):
-        return [[scene, *(told([of[part]]) for part in ("frontend", *BACKENDS)), *(told([of["frontend"], of[name]]) for name in BACKENDS)]
-                for scene, of in counts.items()]
-
-    return HEADER, parsed(path, lines, "scripts/test --everywhere")
+    return f"Instructions of scalar code over those of NEON code: {parsed(path, told, 'scripts/test --everywhere')}."
 
 
 def main():

@@ -1,15 +1,19 @@
 """The main chart: wrong pixels against speed of each coverage method, in scalar code and with SIMD."""
-from accuracy_rows import FAMILIES
-from frontier import LEAST_CROSSINGS, PRICED, frontier_figures, points_of, timed_scenes, wrong_of
+from accuracy_rows import PEERS
+from frontier import LEAST_CROSSINGS, frontier_figures, points_of, timed_scenes, wrong_of
 from plot_labels import Label, label_points
-from plot_style import FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
+from plot_style import BACKENDS, BLACK, FAINT, INK, PURPLE, SKY, VERMILION, WHISKER, WIDTH_IN, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
 from tables import kernels, number, short
 
 # Methods that differ in the number of subpixel bits alone, joined to a curve.
 CURVES = {"64-bit fixed point": {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"},
           "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}}
 BITS = {name: bits for bits, name in next(iter(CURVES.values())).items()}  # the same along every curve
-LABELLED = ("float_lt", "dda_16_16", "llvmpipe", *PRICED)
+# Kinds of methods: prefixes of their names, colour and marker.
+KINDS = {"floating point": (("float", "double"), VERMILION, "D"), "fixed point": (("fixed", "whole"), SKY, "v"), "scanline DDA": (("dda",), PURPLE, "P"),
+         "tiled, other numbers": (("engine",), "#8b1e3f", "*"), "peers": (PEERS, "#6b705c", "X"), "others": (("",), "#8c959f", "X")}
+IN_A_ROW = 7  # of the legend
+LABELLED = ("float_lt", "dda_16_16", "llvmpipe", "float_top_left", "fixed_8", "double_top_left")
 MOST_LABELS = 8
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 1.5}
 
@@ -43,7 +47,25 @@ def labels_of(points, x_of):
     return [Label(x_of(points[m][0]), points[m][1].middle, curve_of.get(m.name, m.name), bold=m.ours) for m in chosen]
 
 
-def draw_panel(axes, points, scale, kinds):
+def kind_of(method):
+    """The name in the legend, colour and marker."""
+    if method.name in BACKENDS:
+        return f"{method.name} (ours)", *BACKENDS[method.name]
+    if method.ours:
+        return "ours (bold)", BLACK, "o"
+    return next((kind, *look) for kind, (starts, *look) in KINDS.items() if method.name.startswith(starts))
+
+
+def legend(figure, y, methods, extra):
+    """Backends and kinds of methods, and below them the other marks."""
+    found = sorted(dict.fromkeys(map(kind_of, methods)), key=lambda kind: kind[0] == "others")
+    handles = [plt.Line2D([], [], color=colour, marker=marker, linestyle="", markersize=7, label=kind) for kind, colour, marker in found]
+    for line, row in enumerate([*(handles[i:i + IN_A_ROW] for i in range(0, len(handles), IN_A_ROW)), extra]):
+        figure.legend(handles=row, loc="upper left", bbox_to_anchor=(0.005, y - 0.2 * line / figure.get_figheight()),
+                      ncol=len(row), frameon=False, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)
+
+
+def draw_panel(axes, points, scale):
     """Returns the lines that labels keep off."""
     lines = []
     for curve in CURVES.values():
@@ -56,7 +78,7 @@ def draw_panel(axes, points, scale, kinds):
     axes.plot(*zip(*steps), **FRONT)
     lines.append(steps)
     for method, (wrong, up, tight) in points.items():
-        x, (colour, marker) = scale.at(wrong), kinds.of(method)
+        x, (_, colour, marker) = scale.at(wrong), kind_of(method)
         lines += [[(x, up.low), (x, up.high)], [(x, up.middle)]]
         axes.plot([x, x], [up.low, up.high], color=colour, **WHISKER, zorder=1.8)
         axes.plot([x], [up.middle], marker=marker, linestyle="", zorder=3, markersize=7, markerfacecolor=colour if tight else "white",
@@ -82,7 +104,6 @@ def frontier(accuracy, bench, folder, caption):
     panels = {form: points for form in ("scalar", "simd") if (points := points_of(found, accuracy, form))}
     if len(panels) < 2:
         return None
-    kinds = Kinds(FAMILIES["coverage"])
     counts = sorted(cracks.crossings for _, cracks in found.values())
     crossings = " to ".join(dict.fromkeys(map(short, (counts[0], counts[-1]))))
     subtitle = (f"Further left: fewer pixels that differ from the exact picture of the scene; further up: faster on one thread, "
@@ -111,12 +132,12 @@ def frontier(accuracy, bench, folder, caption):
         axes.set_title("scalar code" if form == "scalar" else f"{code}, and peers with their own vectors",
                        fontsize=10)
         axes.set_xlabel("wrong pixels per 10⁶ edge crossings")
-        label_points(axes, labels_of(points, scale.at), draw_panel(axes, points, scale, kinds))
+        label_points(axes, labels_of(points, scale.at), draw_panel(axes, points, scale))
     axes_of[0].set_ylabel(f"speed, {base.name} in scalar code = 1×")
     extra = [plt.Line2D([], [], **FRONT, label="fewest errors at a speed (Pareto front)"),
              plt.Line2D([], [], color=FAINT, **WHISKER, label="95 % interval"),
              plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="no crack seen"),
              plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="cracks")]
-    kinds.legend(figure, top, list(found), extra)
+    legend(figure, top, list(found), extra)
     save(figure, folder, "frontier", notes)
     return "frontier"

@@ -81,17 +81,6 @@ def place(points, sizes, bounds, line_points, markers=()):
     return placed
 
 
-def shared_labels(points, near):
-    """Labels of points (x, y, name). Those at one x share one if each y is less than `near` times the next."""
-    groups = []
-    for point in sorted(points, key=lambda point: (point[0], -point[1])):
-        if groups and groups[-1][-1][0] == point[0] and groups[-1][-1][1] < near * point[1]:
-            groups[-1].append(point)
-        else:
-            groups.append([point])
-    return [Label(*group[len(group) // 2][:2], "\n".join(name for *_, name in group)) for group in groups]
-
-
 def label_points(axes, labels, lines=()):
     """lines: lists of (x, y) that labels keep off; one of a single point is a marker. The axes must have their final place and limits."""
     figure = axes.figure

@@ -1,34 +1,9 @@
-"""Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right; and one of all
-sweeps, with a bar for each method, as far as it holds."""
+"""The chart of stability: for each sweep, from easy to hard, a bar for each method, as far as it holds."""
 import math
-import textwrap
 
-from accuracy_rows import FAMILIES, Method
-from plot_style import FAINT, INK, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, save
+from accuracy_rows import FAMILIES
+from plot_style import FAINT, INK, WIDTH_IN, headline, plt, save
 from tables import enumerated, short
-
-
-def groups_of(sweep, methods):
-    """Methods whose curves are the same, as one: (methods, curve), in the registry's order."""
-    groups = {}
-    for curve in sweep.curves:
-        members, _ = groups.setdefault((curve.points, curve.starts_to_fail), ([], curve))
-        members.append(methods.get((sweep.family, curve.method)) or Method(curve.method, "", "", curve.exact))
-    return list(groups.values())
-
-
-# Lengths of dashes and gaps, in widths of the line; given out within a kind of method.
-DASHES = ((), (5, 1.5), (1.5, 1.2), (5, 1.5, 1, 1.5), (8, 2), (3, 1, 1, 1, 1, 1), (9, 1.5, 3, 1.5))
-
-
-def kinds_and_dashes(groups, family):
-    """(kind, dash) of each group, so that no two lines look alike."""
-    found, used = [], {}
-    for members, _ in groups:
-        kind = "ours" if any(member.ours for member in members) else family.kind(members[0])
-        found.append((kind, DASHES[used.get(kind, 0) % len(DASHES)]))
-        used[kind] = used.get(kind, 0) + 1
-    return found
 
 
 def raised(base, power):
@@ -46,147 +21,6 @@ def tidy(value):
         return f"{value:,.0f}" if value % 100 else short(value)
     digits, power = f"{value:.0e}".split("e")
     return ("" if digits == "1" else digits + "·") + raised("10", power)
-
-
-def names_of(members):
-    """Ours, then the others."""
-    return [textwrap.fill(", ".join(m.name for m in members if m.ours == ours), 31) for ours in (True, False)]
-
-
-def line_count(text):
-    return text.count("\n") + 1 if text else 0
-
-
-def place_of_failure(curve):
-    """The index of the first point at which a method fails."""
-    return next((i for i, (x, _) in enumerate(curve.points) if x == curve.starts_to_fail), len(curve.points))
-
-
-def summary(groups):
-    """The sweep's finding: "ours hold; fixed_8_int32 breaks at 182"."""
-    own, others = ([(place_of_failure(curve), tidy(curve.starts_to_fail), m.name) for members, curve in groups for m in members
-                    if m.ours == whose and curve.starts_to_fail is not None] for whose in (True, False))
-    breaking = [found for found in others if found[0] > 0]
-    return (f"ours {f'break at {min(own)[1]}' if own else 'hold'}; "
-            + (f"{min(breaking)[2]} breaks at {min(breaking)[1]}" if breaking else f"{len(others)} others fail at once"))
-
-
-def failing(curve, sweep):
-    if curve.starts_to_fail is None:
-        return "holds"
-    return f"fails at {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
-
-
-def trials_note(sweep):
-    trials = [n for curve in sweep.curves for n in curve.trials if n]
-    if not trials or not sweep.y["log"]:
-        return ""
-    low, high = short(min(trials)), short(max(trials))
-    return f" 0: no error in {low if low == high else f'{low} to {high}'} trials per point; the 95 % upper bound is 3/N."
-
-
-LINE_IN = 0.15  # of a label
-
-
-def stacked(wanted, heights, ties):
-    """Lower ends for boxes of these heights, near where they are wanted (their middles), without overlap, on [0, 1];
-    `ties` order those that are wanted at one place."""
-    order = sorted(range(len(wanted)), key=lambda i: (round(wanted[i], 6), ties[i], i))
-    low = [wanted[i] - heights[i] / 2 for i in order]
-    room = [heights[i] for i in order]
-    for _ in range(200):
-        for i in range(len(low) - 1):
-            lack = low[i] + room[i] - low[i + 1]
-            if lack > 0:
-                low[i], low[i + 1] = low[i] - lack / 2, low[i + 1] + lack / 2
-        low = [max(0.0, low[0]), *low[1:]]
-        if low[-1] + room[-1] > 1:
-            low[-1] = 1 - room[-1]
-    result = [0.0] * len(wanted)
-    for i, index in enumerate(order):
-        result[index] = low[i]
-    return result
-
-
-def set_axis(axes, sweep):
-    """Returns the function from a number of errors to its place."""
-    xs = [x for curve in sweep.curves for x, _ in curve.points]
-    ys = [y for curve in sweep.curves for _, y in curve.points]
-    scale = ZeroAxis(ys)
-    if sweep.y["log"]:
-        scale.apply_y(axes)
-    else:
-        axes.set_ylim(0, max(*ys, 1e-9) * 1.05)
-    if sweep.x["log"] and min(xs) > 0:
-        axes.set_xscale("log", base=10)
-        axes.xaxis.set_major_formatter(lambda value, _: tidy(value))
-        axes.minorticks_off()
-    if xs[0] > xs[len(sweep.curves[0].points) - 1]:  # from easy to hard
-        axes.invert_xaxis()
-    return scale.at if sweep.y["log"] else float
-
-
-def draw_curves(axes, groups, kinds, place_of):
-    """Returns (colour, style) of each group."""
-    looks = []
-    for (members, curve), (kind, dash) in zip(groups, kinds_and_dashes(groups, kinds.family)):
-        colour, marker = kinds.looks[kind]
-        style = (0, dash) if dash else "-"
-        looks.append((colour, style))
-        xs, ys = [x for x, _ in curve.points], [place_of(y) for _, y in curve.points]
-        ours = any(member.ours for member in members)
-        axes.plot(xs, ys, color=colour, linestyle=style, linewidth=2.6 if ours else 1.5, zorder=4 if ours else 3)
-        if curve.starts_to_fail is not None:
-            y = next((y for x, y in curve.points if x == curve.starts_to_fail), 0.0)
-            axes.plot([curve.starts_to_fail], [place_of(y)], marker=marker, markersize=8, color="white",
-                      markeredgecolor=colour, markeredgewidth=1.8, linestyle="", zorder=5)
-    return looks
-
-
-def label_curves(axes, groups, looks, place_of, sweep):
-    """Names at the ends of the curves, each with a sample of its line."""
-    low, high = axes.get_ylim()
-    height_in = axes.figure.get_figheight() * axes.get_position().height
-    texts = [(*names_of(members), failing(curve, sweep)) for members, curve in groups]
-    heights = [(0.07 + LINE_IN * sum(map(line_count, text))) / height_in for text in texts]
-    ties = [-place_of_failure(curve) for _, curve in groups]  # the first to fail at the top
-    wanted = [(place_of(curve.points[-1][1]) - low) / (high - low) for _, curve in groups]
-    lows = stacked(wanted, heights, ties)
-    for text, height, bottom, end, (colour, style) in zip(texts, heights, lows, wanted, looks):
-        y = bottom + height / 2
-        place = {"color": colour, "transform": axes.transAxes, "clip_on": False}
-        axes.plot([0.983, 1.035], [end, y], linewidth=0.7, **place)
-        axes.plot([1.04, 1.088], [y, y], linewidth=2.0, linestyle=style, **place)
-        top = bottom + height
-        for part, weight, ink in zip(text, ("bold", "normal", "normal"), (dark(colour), dark(colour), FAINT)):
-            axes.text(1.095, top, part, transform=axes.transAxes, fontsize=9, va="top", linespacing=1.1, color=ink,
-                      fontweight=weight)
-            top -= line_count(part) * LINE_IN / height_in
-
-
-def sweep_chart(sweep, methods, folder, caption):
-    groups = groups_of(sweep, methods)
-    if not groups or not all(curve.points for _, curve in groups):
-        return None
-    kinds = Kinds(FAMILIES[sweep.family])
-    lines = sum(1 + sum(map(line_count, names_of(members))) for members, _ in groups)
-    subtitle = f"{sweep.summary[0].upper()}{sweep.summary[1:]}. From easy on the left to hard on the right."
-    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.25 + head_in(subtitle) + max(3.4, 0.07 * len(groups) + 0.16 * lines)))
-    height = figure.get_figheight()
-    title = f"{sweep.name.replace('_', ' ').capitalize()}: {summary(groups)}"
-    top = headline(figure, title, subtitle)
-    figure.subplots_adjust(left=0.085, right=0.67, bottom=0.9 / height, top=top - 0.15 / height)
-    place_of = set_axis(axes, sweep)
-    axes.axhline(place_of(sweep.y["tolerance"]), color=FAINT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1)
-    looks = draw_curves(axes, groups, kinds, place_of)
-    axes.margins(x=0.02)
-    label_curves(axes, groups, looks, place_of, sweep)
-    unit = f", {sweep.x['unit']}" if sweep.x["unit"] else ""
-    axes.set_xlabel(f"{sweep.x['name']}{unit}")
-    axes.set_ylabel(sweep.y["name"].replace("10^6", "10⁶"))
-    note = f"Bold: ours. Hollow marks: the method starts to fail, above {tidy(sweep.y['tolerance'])}.{trials_note(sweep)}"
-    save(figure, folder, f"stability-{sweep.name}", f"{note}\n{caption}")
-    return f"stability-{sweep.name}"
 
 
 OURS, HELD, EMPTY = INK, "#9aa5b1", "#eef1f4"
@@ -251,6 +85,8 @@ def finding(name, sweeps, methods):
 
 
 def grid(sweeps, accuracy, folder, caption):
+    if accuracy is None:
+        return None
     blocks = [(block, of, rows_of(of, accuracy.methods[family])) for block, family, of in blocks_of(sweeps)]
     if not blocks:
         return None
@@ -292,11 +128,3 @@ def grid(sweeps, accuracy, folder, caption):
         y += 0.12
     save(figure, folder, "stability-grid", caption)
     return "stability-grid"
-
-
-def draw(sweeps, accuracy, folder, caption):
-    """The names of the charts drawn, or None."""
-    if accuracy is None:
-        return []
-    methods = {(family, m.name): m for family, found in accuracy.methods.items() for m in found}
-    return [*(sweep_chart(sweep, methods, folder, caption) for sweep in sweeps), grid(sweeps, accuracy, folder, caption)]

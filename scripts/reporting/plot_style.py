@@ -21,10 +21,6 @@ BAND = "#f0f2f4"  # behind a special part of an axis
 BACKENDS = {"scanline": (BLUE, "o"), "naive": (ORANGE, "s"), "tiled": (GREEN, "^")}
 ADDED = (("#7f5539", "D"), ("#8a8f00", "v"), ("#5c4d9a", "P"), ("#6b705c", "X"))  # for backends that a user adds
 
-OURS = (BLACK, "o")  # a method of the library that is no backend, or several that share a curve
-KINDS = ((VERMILION, "D"), (SKY, "v"), (PURPLE, "P"), ("#8b1e3f", "*"), ("#6b705c", "X"))
-OTHER = ("#8c959f", "X")
-
 plt.rcParams.update({
     "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
     "font.family": "DejaVu Sans", "font.size": 10.5, "text.color": INK, "axes.labelcolor": INK,
@@ -64,31 +60,6 @@ class Look:
                    for b in self.backends]
         figure.legend(handles=[*handles, *extra], loc="upper left", bbox_to_anchor=(0.005, y), ncol=6, frameon=False,
                       handletextpad=0.4, columnspacing=1.6, fontsize=10.5)
-
-
-IN_A_ROW = 7  # of the legend
-
-
-class Kinds:
-    """Colour and marker of the methods of a family."""
-
-    def __init__(self, family):
-        self.family = family
-        self.looks = {"ours": OURS, "other": OTHER, **dict(zip(family.kinds, KINDS))}
-
-    def of(self, method):
-        return BACKENDS.get(method.name) or self.looks[self.family.kind(method)]
-
-    def legend(self, figure, y, methods, extra):
-        """Backends and kinds of methods, and below them the other marks."""
-        found = {(method.name if method.name in BACKENDS else self.family.kind(method)): self.of(method) for method in methods}
-        names = {"ours": "ours (bold)", "other": "others", **{name: f"{name} (ours)" for name in BACKENDS}}
-        handles = [plt.Line2D([], [], color=colour, marker=marker, linestyle="", markersize=7, label=names.get(kind, kind))
-                   for kind, (colour, marker) in sorted(found.items(), key=lambda item: item[0] == "other")]
-        rows = [handles[i:i + IN_A_ROW] for i in range(0, len(handles), IN_A_ROW)]
-        for line, row in enumerate((*rows, extra)):
-            figure.legend(handles=row, loc="upper left", bbox_to_anchor=(0.005, y - 0.2 * line / figure.get_figheight()),
-                          ncol=len(row), frameon=False, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)
 
 
 def wrapped(text, type_size, width_in=WIDTH_IN):
@@ -156,11 +127,6 @@ class ZeroAxis:
         axes.set_xticks(*self.ticks(zero))
         axes.set_xlim(self.start, self.limit)
         axes.axvspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
-
-    def apply_y(self, axes):
-        axes.set_yticks(*self.ticks("0"))
-        axes.set_ylim(self.start, self.limit)
-        axes.axhspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
 
 
 def caption_lines(caption):

@@ -1,25 +1,14 @@
-// The benchmark's rows have different names, rows that draw wrong pixels are never timed, and pauses are not
-// timed.
+// The benchmark's rows have different names, and rows that draw wrong pixels are never timed.
 #include <gtest/gtest.h>
-#include <linux/perf_event.h>
-#include <sys/mman.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <thread>
 
-#include "bench/models/cost_model.h"
 #include "bench/suite.h"
-#include "bench/workloads/events.h"
-#include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
-#include "edgewise/contract.h"
 #include "lab/engine/engine.h"
 #include "message_of.h"
 #include "run_program.h"
@@ -115,32 +104,8 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
   });
   int of_peers = 0;
   for (const lab::PeerInfo& peer : lab::benchmark_peers()) of_peers += peer.most_threads + peer.own_clock;
-  constexpr std::size_t kOfOtherSizes = 8;
   EXPECT_EQ(names.size(), 3 + 6 * backends().size() + static_cast<std::size_t>(of_peers + 2 * narrower) +
-                              12 * (tools::default_threads() > 1 ? 2 : 1) + kOfOtherSizes);
-}
-
-TEST(BenchSuite, TimesScenesWithACameraAtOtherSizes) {
-  const TempDir folder;
-  SuiteOptions options;
-  options.more_scenes = {folder.write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string()};
-  const auto sizes = [&] {
-    std::map<std::string, std::set<std::pair<int, int>>> found;
-    for (const Row& row : make_suite(options))
-      if (row.timed == Timed::frame && row.name.find("/size:") != std::string::npos) {
-        EXPECT_GT(row.many_rounds_up_to_s, 0.0) << row.name;
-        found[row.name.substr(row.name.find('/') + 1, row.name.find("/size:") - row.name.find('/') - 1)]
-            .insert({row.workload->width(), row.workload->height()});
-      }
-    return found;
-  };
-  const std::set<std::pair<int, int>> both{{1280, 720}, {3840, 2160}};
-  std::map<std::string, std::set<std::pair<int, int>>> expected{{"mine", both}};
-  for (const SceneInfo& scene : builtin_scenes())
-    if (!scene.stream) expected.emplace(scene.name, both);
-  EXPECT_EQ(sizes(), expected);
-  options.size_asked = true;
-  EXPECT_TRUE(sizes().empty());
+                              12 * (tools::default_threads() > 1 ? 2 : 1));
 }
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
@@ -372,168 +337,16 @@ TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
                             "'--benchmark_filter=^(tiled/cube|lab/edge_on_faces/.*normal_z.*)/threads:1$'");
   for (const auto& entry : json["benchmarks"])
     if (entry["run_type"] == "iteration") ++times[entry["name"]];
-  EXPECT_EQ(times.size(), 4u) << "with two rows of random reads";
+  EXPECT_EQ(times.size(), 2u);
   for (const auto& [name, count] : times) EXPECT_EQ(count, 9) << name;
 }
 
-TEST(BenchProgram, NamesTheFileAndSaysWhetherEventsAreCounted) {
+TEST(BenchProgram, NamesTheFile) {
   const TempDir folder;
   const std::string mesh = folder.write("a:b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
   const auto json = written("benchmark_out", "--fit --size 64x64 --benchmark_repetitions=2 --scene " + mesh +
                                                  " --benchmark_filter=^tiled.frontend/a_b/threads:");
   EXPECT_EQ(json["context"]["file a_b"], "a:b.obj, 0 kB");
-  const bool counts = json["context"]["perf_event"] == "available";
-  EXPECT_TRUE(counts || json["context"]["perf_event"].get<std::string>().starts_with("not available ("));
-  const std::string name = "tiled+frontend/a_b/threads:";
-  for (const auto& entry : json["benchmarks"])
-    if (entry["run_type"] == "iteration" && entry["name"].get<std::string>().starts_with(name)) {
-      EXPECT_EQ(entry.contains("instructions"), counts && entry["name"] == name + "1") << entry;
-      EXPECT_TRUE(!entry.contains("instructions") || entry["instructions"] > 1000.0) << entry;
-    }
-}
-
-TEST(BenchEvents, CountThoseOfThisThread) {
-  constexpr std::size_t kPage = 4096, kPages = 256;
-  const EventCounter faults(PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS);
-  if (!faults.error().empty()) GTEST_SKIP() << "perf_event_open: " << faults.error();
-  const auto faults_of = [&](const std::function<void()>& work) {
-    const double before = faults.count();
-    work();
-    return faults.count() - before;
-  };
-  const auto touch = [] {
-    void* memory = mmap(nullptr, kPages * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    ASSERT_NE(memory, MAP_FAILED);
-    madvise(memory, kPages * kPage, MADV_NOHUGEPAGE);
-    for (std::size_t page = 0; page < kPages; ++page) static_cast<char*>(memory)[page * kPage] = 1;
-    munmap(memory, kPages * kPage);
-  };
-  EXPECT_GE(faults_of(touch), kPages);
-  EXPECT_LT(faults_of([&] { std::thread(touch).join(); }), kPages / 2);
-}
-
-TEST(BenchEvents, SayWhyTheyCannotBeCounted) {
-  const EventCounter unknown(PERF_TYPE_SOFTWARE, 999);
-  EXPECT_FALSE(unknown.error().empty());
-  EXPECT_TRUE(std::isnan(unknown.count()));
-}
-
-TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
-  const std::map<std::string, Row> rows = small_rows(160, 90);
-  for (const std::string scene : {"cube", "sphere", "grid64", "large"})
-    for (const std::string pause : {"", "/pause:2ms"})
-      for (const std::string stores : {"", "/stores:streaming"})
-        for (const std::string threads : {"/threads:1", "/threads:2"}) {
-          const Row& row = rows.at("tiled+frontend/" + scene + pause + stores + threads);
-          EXPECT_EQ(row.pause_s, pause.empty() ? 0.0 : 2e-3) << row.name;
-          EXPECT_EQ(lab::describe(row.tiles), stores.empty() ? "" : "streaming stores") << row.name;
-          EXPECT_EQ(is_plain(row), (pause + stores).empty()) << row.name;
-        }
-}
-
-TEST(BenchProgram, PausesAreMadeButNotTimed) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto json = written("benchmark_out",
-                            "--size 64x64 --benchmark_min_time=0.003 --benchmark_repetitions=5 "
-                            "--benchmark_filter=/cube/pause:2ms/threads:1");
-  const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-  double frames = 0.0, fastest_ms = 1e9;
-  for (const auto& entry : json["benchmarks"]) {
-    if (!entry["name"].get<std::string>().starts_with("tiled") || entry["run_type"] != "iteration") continue;
-    frames += entry["iterations"].get<double>();
-    fastest_ms = std::min(fastest_ms, entry["real_time"].get<double>());
-  }
-  EXPECT_GT(frames, 0.0);
-  EXPECT_GT(elapsed.count(), 2.0 * frames);
-  EXPECT_LT(fastest_ms, 2.0);
-}
-
-// The right angle lies in the image's upper left corner.
-ScreenTriangle right_triangle(int legs_px, std::uint32_t z) {
-  const std::int32_t legs = legs_px * contract::kPixel_q15;
-  return {{0, legs, 0}, {0, 0, legs}, {z, z, z}, 0};
-}
-
-TEST(CostModel, CountsABlockOncePerTriangleThatWinsAPixel) {
-  // Legs of 8 px cover blocks (0,0), (1,0) and (0,1), legs of 12 px six blocks.
-  const ScreenTriangle near_small = right_triangle(8, 5000), far_large = right_triangle(12, 6000);
-  const ScreenTriangle order[2][2] = {{near_small, far_large}, {far_large, near_small}};
-  const BlockCounts near_first = count_blocks(order[0], 16, 16), far_first = count_blocks(order[1], 16, 16);
-  EXPECT_EQ(near_first.covered, 9u);
-  EXPECT_EQ(far_first.covered, 9u);
-  // The near triangle occludes the far one in all of block (0,0), but only in parts of (1,0) and (0,1).
-  EXPECT_EQ(near_first.won, 8u);
-  EXPECT_EQ(far_first.won, 9u);
-}
-
-TEST(CostModel, CountsTheBlocksThatTheReferenceDraws) {
-  // One triangle per draw, so that it won exactly the blocks that are not background.
-  SceneRequest request;
-  request.width = 173;
-  request.height = 91;
-  const Drawable stream = random_stream(request, 20, 900.0, 0.0, 5);
-  Frontend frontend;
-  for (const ScreenTriangle& triangle : frontend.run(stream, {})) {
-    Framebuffer frame(request.width, request.height);
-    backends().front().make()->draw({&triangle, 1}, frame.view());
-    std::set<std::pair<int, int>> blocks;
-    for (int y = 0; y < request.height; ++y)
-      for (int x = 0; x < request.width; ++x)
-        if (frame.depth_row(y)[x] != contract::kDepthClear) blocks.insert({x / 4, y / 4});
-    const BlockCounts counts = count_blocks({&triangle, 1}, request.width, request.height);
-    EXPECT_EQ(counts.won, blocks.size());
-    EXPECT_EQ(counts.covered, blocks.size());
-  }
-}
-
-TEST(CostModel, AddsMeasuredPartsAndScalesWithBlocks) {
-  const std::vector<ScreenTriangle> triangles(1000, right_triangle(8, 5000));
-  Framebuffer frame(64, 64);
-  CostModel model;
-  const FrameCost few = model.estimate(triangles, {1000, 1000}, frame, 1);
-  const FrameCost many = model.estimate(triangles, {2000, 2000}, frame, 1);
-  EXPECT_GT(few.read_s, 0.0);
-  EXPECT_GT(few.write_s, 0.0);
-  EXPECT_DOUBLE_EQ(many.blocks_s, 2 * few.blocks_s);
-  EXPECT_DOUBLE_EQ(many.write_s, few.write_s);
-}
-
-TEST(RandomReads, ReadAllLinesBeforeOneIsReadAgain) {
-  for (const std::size_t bytes : {std::size_t{0}, std::size_t{64}, std::size_t{128}, std::size_t{1} << 16}) {
-    RandomReads reads(bytes);
-    EXPECT_EQ(reads.lines(), std::max<std::size_t>(1, bytes / 64));
-    std::set<std::uint64_t> seen;
-    for (std::size_t i = 0; i < reads.lines(); ++i) seen.insert(reads.advance(1));
-    EXPECT_EQ(seen.size(), reads.lines());
-    EXPECT_EQ(*seen.rbegin(), reads.lines() - 1);
-    EXPECT_EQ(reads.advance(reads.lines()), 0u);
-  }
-}
-
-TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
-  const auto workload = cube();
-  Stage stage;
-  Row with = row_of(backends()[0], workload), without = with;
-  with.wants_cost = true;
-  stage.compare(with);
-  stage.compare(without);
-  ASSERT_TRUE(with.cost.has_value());
-  EXPECT_EQ(with.cost->blocks.won, workload->blocks().won);
-  EXPECT_GT(with.cost->blocks_s, 0.0);
-  EXPECT_GT(with.cost->tiles_s, 0.0);
-  EXPECT_FALSE(without.cost.has_value());
-  EXPECT_EQ(with.error, "");
-}
-
-TEST(BenchProgram, WritesTheCostModelsPartsOfTheRowsThatHaveThem) {
-  const auto costs = written("model_out",
-                             "--scene=cube --size 64x64 --benchmark_min_time=0.001 "
-                             "--benchmark_repetitions=1 --benchmark_filter=d/cube/threads:1")["costs"];
-  ASSERT_EQ(costs.size(), 1u) << "of tiled, not of the front end";
-  EXPECT_EQ(costs[0]["name"], "tiled/cube/threads:1");
-  EXPECT_GT(costs[0]["won_blocks"], 0);
-  EXPECT_GE(costs[0]["covered_blocks"], costs[0]["won_blocks"]);
-  for (const char* part : {"read_ms", "blocks_ms", "write_ms", "tiles_ms"}) EXPECT_GT(costs[0][part], 0.0);
 }
 
 }  // namespace

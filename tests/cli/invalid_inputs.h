@@ -279,10 +279,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "two pictures"},
     {"edgewise render cube -o - --depth -", 2, "--output and --depth would write the same file"},
     {"edgewise portable cube -o - --picture /dev/stdout | cat; exit ${PIPESTATUS[0]}", 2, "the same file"},
-    {"printf older >$DIR/older.json; ln -s $DIR/older.json $IN/a.json; bench $SHORT "
-     "--benchmark_out=$DIR/older.json --model_out=$IN/a.json",
-     2, "--benchmark_out and --model_out would write the same file", "older.json"},
-    {"bench $SHORT --benchmark_out=/dev/null --model_out=/dev/null", 0, ""},
     {"edgewise view cube --keys p --save-to $IN -o $IN/cube-0001.png", 2, "would write the same file"},
     {"ln -s good.obj $IN/a.png; edgewise render $IN/good.obj -o $IN/a.png", 2, "would overwrite the input"},
     {"ln -s good.obj $IN/a.png; edgewise portable $IN/good.obj -o $IN/a.png", 2, "would overwrite the input"},
