@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -188,31 +189,43 @@ TEST(FrontendKernels, StreamsInDoubleAreTheSameOnEveryTargetAndThreadCount) {
   expect_same_triangles(run(stream, fine).triangles, run(exact, fine).triangles, "floats in double");
 }
 
-// Products of such triangles' sides differ by less than doubles of their size can tell.
+// A triangle as large as the guard band, with an area of 16 sub-units²: the products of its sides differ by
+// less than doubles of their size can tell. Vertex 0 is a fine point close to the others' line, which are
+// coarse.
+std::optional<StreamTriangle> thinnest_triangle(Random& random) {
+  constexpr std::int64_t kCoarse = 32, kMost = contract::kGuard_q15 / kCoarse;  // floats hold multiples
+  const auto below = [&](std::int64_t n) {
+    return static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(n)));
+  };
+  const std::int64_t x1 = -kMost / 2 - below(kMost / 2), y1 = -kMost / 2 - below(kMost / 2);
+  const std::int64_t x2 = below(4096) - x1 - 4096, y2 = below(4096) - y1 - 4096;
+  const std::int64_t a = x2 - x1, b = y2 - y1;
+  // a y - b x = 1, by Euclid's algorithm.
+  std::int64_t rest = a, divisor = b, y = 1, next = 0;
+  while (divisor != 0) {
+    const std::int64_t quotient = rest / divisor;
+    rest = std::exchange(divisor, rest - quotient * divisor), y = std::exchange(next, y - quotient * next);
+  }
+  if (rest != 1) return std::nullopt;
+  const std::int64_t x = (a * y - 1) / b, steps = (-kCoarse * x1 - x) / a;
+  const std::int64_t x0 = kCoarse * x1 + x + steps * a, y0 = kCoarse * y1 + y + steps * b;
+  if (std::max(std::abs(x0), std::abs(y0)) >= 1 << 24) return std::nullopt;
+  const auto vertex = [&](std::int64_t vx, std::int64_t vy) {
+    return glm::vec3(std::ldexp(static_cast<float>(vx), -contract::kFineBits),
+                     std::ldexp(static_cast<float>(vy), -contract::kFineBits), 0.5f);
+  };
+  return StreamTriangle{
+      {vertex(x0, y0), vertex(kCoarse * x1, kCoarse * y1), vertex(kCoarse * x2, kCoarse * y2)}, 0};
+}
+
 TEST(FrontendKernels, SignsOfTheSmallestAreasAreExact) {
-  constexpr std::int64_t kGuard = contract::kGuard_q15;
   Random random(9);
   TriangleStream stream{640, 480, {}};
-  while (stream.exact.size() < 1000) {
-    // dx1 dy2 - dx2 dy1 = 1, by Euclid's algorithm.
-    const auto side = [&] { return kGuard + static_cast<std::int64_t>(random.below(kGuard)); };
-    const std::int64_t dx1 = side(), dy1 = side();
-    std::int64_t a = dx1, b = dy1, dy2 = 1, next = 0;
-    while (b != 0) {
-      const std::int64_t quotient = a / b;
-      a = std::exchange(b, a - quotient * b), dy2 = std::exchange(next, dy2 - quotient * next);
+  while (stream.triangles.size() < 1000)
+    if (auto t = thinnest_triangle(random)) {
+      if (stream.triangles.size() % 2 == 0) std::swap(t->vertex[1], t->vertex[2]);
+      stream.triangles.push_back(*t);
     }
-    if (a != 1) continue;
-    if (dy2 < 0) dy2 += dy1;
-    const std::int64_t dx2 = (dx1 * dy2 - 1) / dy1;
-    const auto vertex = [&](std::int64_t x, std::int64_t y) {
-      return glm::dvec3(std::ldexp(static_cast<double>(x - kGuard), -contract::kFineBits),
-                        std::ldexp(static_cast<double>(y - kGuard), -contract::kFineBits), 0.5);
-    };
-    auto& t = stream.exact.emplace_back();
-    t.vertex[0] = vertex(0, 0), t.vertex[1] = vertex(dx1, dy1), t.vertex[2] = vertex(dx2, dy2);
-    if (stream.exact.size() % 2 == 0) std::swap(t.vertex[1], t.vertex[2]);
-  }
   for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
     const FrontendOptions options{.width = 640, .height = 480, .cull = cull, .subpixel_bits = 15};
     expect_alike(stream, options);
