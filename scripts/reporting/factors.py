@@ -5,8 +5,8 @@ Cells are the rows cell/SCENE/traversal:bands|tiles/fill:spans|edges/simd:TARGET
 from itertools import product
 from typing import NamedTuple
 
-from bench_rows import gained, gained_interval, order
-from noise import LEVEL, median
+from bench_rows import gained, order
+from noise import LEVEL, interval, median
 from tables import about, kernels, number
 
 SCALAR = "scalar"
@@ -14,10 +14,6 @@ HIZ, MASKS = "hiz", "hiz+masks"
 ELSEWHERE = "elsewhere"
 DEEP, SMALL_PX = 4, 10  # where HiZ and masks can act: overdraw; covered pixels per triangle
 TRAVERSALS, FILLS = ("bands", "tiles"), ("spans", "edges")
-# What scalar code is, beside the table.
-SCALAR_CODE = ("Scalar: the compiler vectorizes the depth test of spans, on x86-64 with SSE2; tiles with edges run the vector kernel with one lane, which is "
-               "not the best scalar code. Tiles with edges reject blocks first, bands with edges test whole boxes. SIMD includes front end and binning. "
-               "Pairs with a cell over 1.5 s are left out.")
 
 
 class Cell(NamedTuple):
@@ -79,7 +75,6 @@ class Gain(NamedTuple):
     simd: bool
     pairs: list  # (speed-up, scene), the smallest first
     orders: list  # order() of each pair
-    least: list  # the lower end of each pair's interval
 
     @property
     def title(self):
@@ -103,21 +98,24 @@ def gains(bench):
                      if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
             if pairs:
                 yield Gain(factor, where, field, after, simd, sorted((gained(other, row), scene) for scene, other, row in pairs),
-                           [order(row, other) for _, other, row in pairs], [gained_interval(other, row)[0] for _, other, row in pairs])
+                           [order(row, other) for _, other, row in pairs])
 
 
 def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
     found = {(gain.title, gain.simd): gain for gain in gains(bench)}
 
-    def told(gain):
+    def said(gain):
         if not gain:
-            return ["–", "–"]
-        ends = " to ".join(f"{about(ratio)} in {scene}" for ratio, scene in (gain.pairs[0], gain.pairs[-1]))
-        return [f"{about(gain.median)} ({ends})", gain.counts]
+            return "–"
+        low, high = (about(end).removesuffix("×") for end in interval([ratio for ratio, _ in gain.pairs]))
+        return f"{about(gain.median)} ({low} to {high})"
 
-    return (["factor", kernels(bench.context.get("simd_target")), "won/lost/open", SCALAR, "won/lost/open"],
-            [[title, *(cell for simd in (True, False) for cell in told(found.get((title, simd))))]
+    def settled(gain):
+        return f"{gain.orders.count(-1)} / {gain.orders.count(1)} of {len(gain.orders)}" if gain else "–"
+
+    return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower", SCALAR],
+            [[title, said(found.get((title, True))), settled(found.get((title, True))), said(found.get((title, False)))]
              for title in dict.fromkeys(title for title, _ in found)])
 
 
@@ -126,18 +124,6 @@ def conditions(bench, shown):
     pairs = sum(len(gain.pairs) for gain in shown)
     return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor, as implemented here; of "
             f"{pairs} verdicts, at most {number(LEVEL * pairs, 2)} false ones are expected.")
-
-
-def superlinear(shown):
-    """How many pairs of these Gains gain more by threads than there are threads, and how many may by chance; "" if none does."""
-    told = []
-    for gain in shown:
-        above = sum(ratio > gain.after for ratio, _ in gain.pairs) if gain.field == "threads" else 0
-        if above:
-            pairs, surely = len(gain.pairs), sum(least > gain.after for least in gain.least)
-            told.append(f"{'with SIMD' if gain.simd else 'in scalar code'} {above} of {pairs}, {surely} of them with the whole 95 % interval "
-                        f"(by chance at most {number(pairs / 40, 2)})")
-    return f" Pairs that gain more by threads than there are threads: {'; '.join(told)}." if told else ""
 
 
 class Duel(NamedTuple):

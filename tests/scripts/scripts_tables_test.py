@@ -11,7 +11,6 @@ sys.path.insert(0, str(SCRIPTS / "reporting"))
 from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_lines, speed_table  # noqa: E402
-from factors import gains, superlinear  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import cracks_of, frontier_figures, points_of, speed_ups, wrong_of  # noqa: E402
 from instructions import instructions_sentence, read_counts  # noqa: E402
@@ -73,13 +72,6 @@ class TablesTest(unittest.TestCase):
         self.assertEqual(timed.scenes, [])
         both, naive, untimed = parse_accuracy(data, timed).scenes[0].measured
         self.assertEqual((both.scalar.ns, both.simd.ns, naive.scalar.ns, naive.simd, untimed.scalar), (8000.0, 4000.0, 8000.0, None, None))
-
-    def test_gains_beyond_the_number_of_threads_are_counted_beside_those_of_chance(self):
-        rows = {f"cell/{scene}/traversal:bands/fill:spans/simd:scalar/threads:{n}": ms for scene, times in (("a", (9.0, 4.0)), ("b", (9.0, 5.0)))
-                for n, ms in zip((1, 2), times)}
-        self.assertEqual(superlinear(gains(bench(rows))), " Pairs that gain more by threads than there are threads: in scalar code 1 of 2, "
-                                                            "1 of them with the whole 95 % interval (by chance at most 0.05).")
-        self.assertEqual(superlinear(gains(bench({name: ms for name, ms in rows.items() if "/b/" in name}))), "")
 
     def test_a_scene_that_has_over_half_of_the_errors_is_named(self):
         ours, plain = measured("tiled", 800), measured("float_lt", 6000)
