@@ -120,20 +120,6 @@ def engine_table(bench):
 
 
 # The cost of two threads in a small draw.
-SMALL = {"256 × 256": "cube/tiny:256x256", "1920 × 1080": "cube"}
-
-
-def small_draws_table(bench):
-    """Header and lines; no lines if no such row was timed."""
-    lines = []
-    for size, work in SMALL.items():
-        for backend in bench.backends:
-            rows = [bench.find(f"{backend}/{work}/threads:{threads}") for threads in (1, 2)]
-            if all(rows):
-                lines.append([size, f"`{backend}`", *(number(1e3 * row.median_ms) for row in rows), gain(*rows)])
-    return ["size", "backend", "1 thread, µs", "2 threads, µs", "speed-up"], lines
-
-
 def memory_sentence(bench):
     """The peak memory of front end, frame and backend, in the first frame."""
     rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]

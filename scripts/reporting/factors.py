@@ -71,7 +71,6 @@ class Gain(NamedTuple):
     factor: str
     where: str
     field: str  # of a cell
-    after: object  # its level
     simd: bool
     pairs: list  # (speed-up, scene), the smallest first
     orders: list  # order() of each pair
@@ -81,12 +80,24 @@ class Gain(NamedTuple):
         return f"{self.factor}, {self.where}"
 
     @property
+    def by_scene(self):
+        """The median speed-up of each scene."""
+        return [median(ratio for ratio, name in self.pairs if name == scene) for scene in dict.fromkeys(scene for _, scene in self.pairs)]
+
+    @property
     def median(self):
-        return median(ratio for ratio, _ in self.pairs)
+        return median(self.by_scene)
+
+    @property
+    def text(self):
+        """The median of the scenes, and its 95 % interval over scenes."""
+        low, high = (about(end).removesuffix("×") for end in interval(self.by_scene))
+        return f"{about(self.median)} ({low} to {high})"
 
     @property
     def counts(self):
-        return "/".join(str(self.orders.count(order)) for order in (-1, 1, 0))
+        """In how many pairs the factor is settled faster and slower."""
+        return f"{self.orders.count(-1)} / {self.orders.count(1)} of {len(self.orders)}"
 
 
 def gains(bench):
@@ -97,7 +108,7 @@ def gains(bench):
             pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": simd, **levels, field: after}).items()
                      if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
             if pairs:
-                yield Gain(factor, where, field, after, simd, sorted((gained(other, row), scene) for scene, other, row in pairs),
+                yield Gain(factor, where, field, simd, sorted((gained(other, row), scene) for scene, other, row in pairs),
                            [order(row, other) for _, other, row in pairs])
 
 
@@ -105,18 +116,12 @@ def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
     found = {(gain.title, gain.simd): gain for gain in gains(bench)}
 
-    def said(gain):
-        if not gain:
-            return "–"
-        low, high = (about(end).removesuffix("×") for end in interval([ratio for ratio, _ in gain.pairs]))
-        return f"{about(gain.median)} ({low} to {high})"
-
-    def settled(gain):
-        return f"{gain.orders.count(-1)} / {gain.orders.count(1)} of {len(gain.orders)}" if gain else "–"
+    def line(title):
+        simd, scalar = (found.get((title, simd)) for simd in (True, False))
+        return [title, simd.text if simd else "–", simd.counts if simd else "–", scalar.text if scalar else "–"]
 
     return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower", SCALAR],
-            [[title, said(found.get((title, True))), settled(found.get((title, True))), said(found.get((title, False)))]
-             for title in dict.fromkeys(title for title, _ in found)])
+            [line(title) for title in dict.fromkeys(title for title, _ in found)])
 
 
 def conditions(bench, shown):

@@ -3,7 +3,7 @@ import math
 from typing import NamedTuple
 
 from accuracy_rows import Pooled, pooled
-from bench_rows import gained, mean_gained
+from bench_rows import mean_gained
 from bench_tables import GPU
 from facts_tables import pooled_text
 

@@ -52,23 +52,24 @@ HWY_INLINE V set(std::uint32_t v) {
   return hn::Set(D{}, static_cast<std::int32_t>(v));
 }
 
-// A batch of triangles: their boxes in the area, which lies in one row of depth cells, and their depth planes
-// (rule 6).
+// A batch of triangles: their boxes in the area, and their depth planes (rule 6). The area lies in one row of
+// depth cells. Aligned, so that a vector of entries lies in one cache line.
 struct alignas(64) FrameBatch {
   std::int32_t x0[kBatch], y0[kBatch], x1[kBatch], y1[kBatch];
   std::int64_t gx[kBatch];
-  std::int64_t origin[kBatch];  // 2^kPlaneBits (depth at pixel 0 of the row of cells + 1/2), wrapped
+  std::int64_t origin[kBatch];  // 2^kPlaneBits (1/2 + the depth base of the row's first cell), wrapped
   std::int32_t zx[kBatch], zy[kBatch];
   std::int32_t z0[kBatch];  // depth in the box's first row, at the first pixel of its first cell
 
   PixelBox box(int k) const { return {x0[k], y0[k], x1[k], y1[k]}; }
-  // Depth in row y of the box, at the first pixel of the cell that holds pixel x.
+  // Depth in row y, at the first pixel of the cell that holds pixel x. Both lie in the box.
   HWY_INLINE std::uint32_t z_in_cell(int k, int x, int y) const {
     const int cell = x & -kDepthCell;
-    const std::uint32_t down = bits(zy[k]);
-    if (cell <= x0[k]) return bits(z0[k]) + bits(y - y0[k]) * down;
-    const std::uint64_t base = bits(origin[k]) + bits(gx[k]) * (std::uint64_t{bits(cell)} << kFineBits);
-    return static_cast<std::uint32_t>(base >> kPlaneBits) + bits(y % kDepthCell) * down;
+    const std::uint32_t down = as_unsigned(zy[k]);
+    if (cell <= x0[k]) return as_unsigned(z0[k]) + as_unsigned(y - y0[k]) * down;
+    const std::uint64_t base =
+        as_unsigned(origin[k]) + as_unsigned(gx[k]) * (std::uint64_t{as_unsigned(cell)} << kFineBits);
+    return static_cast<std::uint32_t>(base >> kPlaneBits) + as_unsigned(y % kDepthCell) * down;
   }
 
   // Stores a vector of triangles as entries k … Returns the bits of those that are drawn.
@@ -92,19 +93,20 @@ struct alignas(64) FrameBatch {
     for (std::uint32_t left = drawn & ~mask_bits(depth.exact); left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left), i = k + lane;
       const DepthPlane exact = make_depth(orient(task.bins.triangles()[indices[lane]]));
-      gx[i] = bits(exact.gx);
-      origin[i] = bits(exact.origin + exact.gy * (std::uint64_t{bits(row_of_cells)} << kFineBits));
-      zx[i] = bits(exact.zx), zy[i] = bits(exact.zy), z0[i] = bits(exact.at(x0[i] & -kDepthCell, y0[i]));
+      gx[i] = as_signed(exact.gx);
+      origin[i] =
+          as_signed(exact.origin + exact.gy * (std::uint64_t{as_unsigned(row_of_cells)} << kFineBits));
+      zx[i] = as_signed(exact.zx), zy[i] = as_signed(exact.zy),
+      z0[i] = as_signed(exact.at(x0[i] & -kDepthCell, y0[i]));
     }
     return drawn;
   }
 
  private:
-  // The other signedness.
-  static std::uint32_t bits(std::int32_t v) { return static_cast<std::uint32_t>(v); }
-  static std::uint64_t bits(std::int64_t v) { return static_cast<std::uint64_t>(v); }
-  static std::int32_t bits(std::uint32_t v) { return static_cast<std::int32_t>(v); }
-  static std::int64_t bits(std::uint64_t v) { return static_cast<std::int64_t>(v); }
+  static std::uint32_t as_unsigned(std::int32_t v) { return static_cast<std::uint32_t>(v); }
+  static std::uint64_t as_unsigned(std::int64_t v) { return static_cast<std::uint64_t>(v); }
+  static std::int32_t as_signed(std::uint32_t v) { return static_cast<std::int32_t>(v); }
+  static std::int64_t as_signed(std::uint64_t v) { return static_cast<std::int64_t>(v); }
 };
 
 // Draws a cell's triangles in submission order. A Batch derives from FrameBatch and has set_up(task, indices,

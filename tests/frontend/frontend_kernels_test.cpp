@@ -189,9 +189,9 @@ TEST(FrontendKernels, StreamsInDoubleAreTheSameOnEveryTargetAndThreadCount) {
   expect_same_triangles(run(stream, fine).triangles, run(exact, fine).triangles, "floats in double");
 }
 
-// A triangle as large as the guard band, with an area of 16 sub-units²: the products of its sides differ by
-// less than doubles of their size can tell. Vertex 0 is a fine point close to the others' line, which are
-// coarse.
+// A triangle as large as the guard band, with an area of 16 sub-units²: the two products of its area round to
+// the same double. Vertices 1 and 2 are multiples of 32 sub-units. Vertex 0 is the nearest point beside their
+// line.
 std::optional<StreamTriangle> thinnest_triangle(Random& random) {
   constexpr std::int64_t kCoarse = 32, kMost = contract::kGuard_q15 / kCoarse;  // floats hold multiples
   const auto below = [&](std::int64_t n) {

@@ -17,17 +17,21 @@ class ClaimsTest(unittest.TestCase):
         page = claims.plain("A second core makes\nframes [1.9×](results) faster.")
 
         def found(claim, values):
-            return list(claims.faults({"says": says, "bounds": bounds, "machines": 2} | claim, values, page))
+            return list(claims.faults({"says": says, "bounds": bounds, "of": ["a", "b"]} | claim, values, page))
 
         good, bad = ({expression: value for expression in bounds} for value in (1.9, 1.96))
         self.assertEqual(found({}, {"a": good, "b": good}), [])
         self.assertIn("b: median", *found({}, {"a": good, "b": bad}))
-        self.assertIn("not on 2", *found({}, {"a": good}))
-        self.assertIn("not name", *found({"machines": 1}, {"a": good}))
+        self.assertIn("timed on a, not on a, b", *found({}, {"a": good}))
+        self.assertIn("not name", *found({"of": ["a"], "named": "Zen 3"}, {"a": good}))
         self.assertIn("not in README", *found({"says": "A second core doubles the speed."}, {"a": good, "b": good}))
 
+    def test_a_sentence_without_a_claim_is_found(self):
+        section = "- **SIMD.** On a Zen 3, it is [2×](results) faster. Then it is 3× slower.\n- No figure. Use 1/256 px."
+        self.assertEqual(claims.unclaimed(section, [{"says": "On a Zen 3, it is 2× faster."}]), ["Then it is 3× slower."])
+
     def test_a_folder_without_rows_does_not_count(self):
-        claim = {"bounds": {"max(ratios('swiftshader', 'tiled', 2))": [0, 99]}}
+        claim = {"of": [], "bounds": {"max(ratios('swiftshader', 'tiled', 2))": [0, 99]}}
         self.assertEqual(list(claims.evaluated(claim, ROOT / "results")), ["amd-epyc-family-25-model-1-2-cores"])
 
 

@@ -61,8 +61,8 @@ struct LongEdge {
 template <class G>
 struct FrameEdges : FrameBatch {
   struct {
-    std::int64_t first[kBatch];         // biased value (rule 4) at the box's first sample
-    std::int32_t clamped[kBatch];       // the same, shifted (rule 5), for ShortEdge
+    std::int64_t first[kBatch];    // biased value (rule 4) at the box's first sample
+    std::int32_t clamped[kBatch];  // the same for ShortEdge: shifted (rule 5) and clamped, a vector at once
     std::int32_t a[kBatch], b[kBatch];  // steps per sub-unit
   } edge[3];
   std::uint32_t is_long = 0;  // bit k: triangle k has an edge for LongEdge
@@ -71,17 +71,16 @@ struct FrameEdges : FrameBatch {
     const auto t = load<G>(task.bins.triangles(), indices);
     const BoxLanes in_area(t, task.area);
     const Area area = area_of(t);
-    auto short_edges = hn::FirstN(D{}, kLanes);
+    V longest = hn::Zero(D{});
     for (int i = 0; i < 3; ++i) {
       const EdgeLanes lanes(t, area, i, sample<G>(in_area.x0), sample<G>(in_area.y0));
       const V64 limit = hn::Set(D64{}, kLimit), shifted = hn::ShiftRight<G::kSubBits>(lanes.value);
       hn::StoreU(lanes.value, D64{}, edge[i].first + k);
       store(lower(hn::Min(hn::Max(shifted, hn::Neg(limit)), limit)), edge[i].clamped + k);
       store(lanes.a, edge[i].a + k), store(lanes.b, edge[i].b + k);
-      const V longest = hn::Max(hn::Abs(lanes.a), hn::Abs(lanes.b));
-      short_edges = hn::And(short_edges, hn::Lt(longest, hn::Set(D{}, kShort + 1)));
+      longest = hn::Max(longest, hn::Max(hn::Abs(lanes.a), hn::Abs(lanes.b)));
     }
-    if constexpr (std::is_same_v<G, Fine>) is_long |= lower_bits(hn::Not(short_edges)) << k;
+    if constexpr (std::is_same_v<G, Fine>) is_long |= lower_bits(hn::Gt(longest, hn::Set(D{}, kShort))) << k;
     return store_vector(t, in_area, area, task, indices, k);
   }
 
