@@ -16,6 +16,7 @@
 #include "bench/program/reporter.h"
 #include "bench/workloads/memory.h"
 #include "bench/workloads/stage.h"
+#include "core/parallel.h"
 #include "files/atomic_file.h"
 #include "support/console.h"
 #include "support/json.h"
