@@ -52,6 +52,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise needs cube --ranges --pictures $DIR/a", 2, "--pictures cannot be given"},
     {"edgewise needs cube cube --pictures $DIR/a", 2, "two scenes have the name 'cube'"},
     {"edgewise needs cube --displacement -1", 2, "--displacement"},
+    {"edgewise needs cube --tolerance -1", 2, "--tolerance"},
     {"edgewise needs cube --pictures $IN/small.ppm", 2, "not a folder"},
     {"edgewise portable", 2, "SCENE is required"},
     {"edgewise portable cube --bits 8-4", 2, "--bits"},

@@ -42,7 +42,7 @@ constexpr auto kUnorm = []<int... kBits>(std::integer_sequence<int, kBits...>) {
   return std::array<Draw, sizeof...(kBits)>{draw_unorm<kBits + 1>...};
 }
 (std::make_integer_sequence<int, kMostDepthBits>());
-// The levels above: ours, which is exact, and those that are judged alone.
+// The levels above: ours, which is exact, and floats, which are no more and no less precise.
 constexpr const char* kOtherDepths[] = {"contract31", "float_z", "reversed_z"};
 
 Draw draw_of(const Pipeline& pipeline) {
@@ -53,25 +53,14 @@ Draw draw_of(const Pipeline& pipeline) {
                                : find_visibility_method(kOtherDepths[level - kUnorm.size()]).draw;
 }
 
-Question question(std::string name, std::span<const char* const> levels) {
-  Question result{std::move(name), {}};
-  for (const char* level : levels) result.answers.push_back({level});
-  result.trial = "pixel";
-  return result;
+void add_bits(std::vector<std::string>& levels, int least, int most) {
+  for (int bits = least; bits <= most; ++bits) levels.push_back(bits_name(bits));
 }
 
-Question bits_question(const char* name, int least, int most) {
-  Question result = question(name, {});
-  for (int bits = least; bits <= most; ++bits) result.answers.push_back({bits_name(bits)});
-  return result;
-}
-
-// What decides which triangle is visible.
-enum class Depths { none, ours, distance };
 Depths depths_of(const Pipeline& pipeline) {
-  if (pipeline[kVisibility] == 0) return Depths::none;
+  if (pipeline[kVisibility] == 0) return {};
   const bool ours = pipeline[kVisibility] == kDepthBuffer && pipeline[kDepth] == kMostDepthBits;
-  return ours ? Depths::ours : Depths::distance;
+  return {ours, !ours};
 }
 
 double area_px(const VisibilityTriangle& t) {
@@ -83,12 +72,13 @@ double area_px(const VisibilityTriangle& t) {
 // Makes the triangles of a frame that a pipeline shows.
 class Assembly {
  public:
-  Assembly(const Pipeline& pipeline, Cull cull, const ViewVolume& view, bool stream, PipelineMemory& memory)
+  Assembly(const Pipeline& pipeline, Depths depths, Cull cull, const ViewVolume& view, bool stream,
+           PipelineMemory& memory)
       : pipeline_(pipeline),
         cull_(cull),
         view_(view),
         stream_(stream),
-        depths_(depths_of(pipeline)),
+        depths_(depths),
         depth_(view.near_z, view.far_z),
         memory_(memory),
         scene_(memory.scene) {
@@ -111,8 +101,8 @@ class Assembly {
       for (const glm::vec3 p : mesh.positions) {
         const glm::vec3 v = transform(to_screen, p);
         const float inverse_w = 1.0f / v.z;
-        const double distance = depths_ == Depths::distance ? to_screen(p).w : double{v.z};
-        memory_.vertices.push_back(project(v.x * inverse_w, v.y * inverse_w, distance));
+        const double distance = depths_.distance ? to_screen(p).w : 0.0;
+        memory_.vertices.push_back(project(v.x * inverse_w, v.y * inverse_w, v.z, distance));
         if (tests_sides_) memory_.vertices.back().snapped.outside |= outside_of(as_clip_vertex(v), view_);
       }
 
@@ -148,7 +138,7 @@ class Assembly {
       const auto clip_vertex = [&](int k) { return ClipVertex{v[k].x, v[k].y, v[k].z, 1.0}; };
       ProjectedVertex corner[3];
       for (int k = 0; k < 3; ++k) {
-        corner[k] = project(v[k].x, v[k].y, v[k].z);
+        corner[k] = project(v[k].x, v[k].y, v[k].z, v[k].z);
         corner[k].snapped.outside |= outside_of(clip_vertex(k), view_);
       }
       add_triangle(corner[0], corner[1], corner[2], id, false, clip_vertex);
@@ -159,16 +149,16 @@ class Assembly {
   // A flag beside those of Outside: the screen position is not finite.
   static constexpr std::uint32_t kNowhere = 2 * kNotFinite;
 
-  // z: a scene's distance, a stream's depth.
-  ProjectedVertex project(float x_px, float y_px, double z) const {
+  // Of a stream, both are its depth.
+  ProjectedVertex project(float x_px, float y_px, double front_end_distance, double distance) const {
     ProjectedVertex v{x_px, y_px, 0.0, {0, 0, 0, kNowhere}};
     if (!std::isfinite(x_px) || !std::isfinite(y_px)) return v;
     const int bits = pipeline_[kSubpixel];
     v.snapped = {snap(double{x_px}, bits), snap(double{y_px}, bits), 0, 0};
-    if (depths_ == Depths::ours)
-      v.snapped.z = stream_ ? quantize_depth(static_cast<float>(z)) : depth_.units(z);
-    else if (depths_ == Depths::distance)
-      v.view_z = stream_ ? 1.0 / (1.0 - z / 2.0) : std::clamp(z, scene_.near_z, scene_.far_z);
+    if (depths_.ours)
+      v.snapped.z = stream_ ? quantize_depth(static_cast<float>(distance)) : depth_.units(front_end_distance);
+    if (depths_.distance)
+      v.view_z = stream_ ? 1.0 / (1.0 - distance / 2.0) : std::clamp(distance, scene_.near_z, scene_.far_z);
     return v;
   }
 
@@ -206,7 +196,7 @@ class Assembly {
     std::array<Vertex, Clipper::kMaxVertices> snapped;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const ClipVertex& v = polygon[i];
-      projected[i] = v.corner >= 0 ? *corners[v.corner] : project(x_px(v), y_px(v), v.z);
+      projected[i] = v.corner >= 0 ? *corners[v.corner] : project(x_px(v), y_px(v), v.z, v.z);
       snapped[i] = projected[i].snapped;
     }
     const Pieces pieces = split({snapped.data(), polygon.size()});
@@ -251,73 +241,67 @@ class Assembly {
   VisibilityScene& scene_;
 };
 
-// The front end's triangles, not culled. A stream's have no camera: see Assembly.
-VisibilityScene unculled(const Drawable& drawable, Size size) {
-  Frontend frontend;
-  const auto triangles = frontend.run(drawable, {.width = size.width,
-                                                 .height = size.height,
-                                                 .cull = Cull::none,
-                                                 .payload = Payload::id,
-                                                 .keep_unsnapped = true});
-  if (const auto* scene = std::get_if<Scene>(&drawable))
-    return visibility_scene(triangles, frontend.unsnapped(), *scene, size);
-  VisibilityScene result{size.width, size.height, 1.0, 2.0, {}, {}};
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const UnsnappedTriangle& at = frontend.unsnapped()[i];
-    VisibilityTriangle t{triangles[i], {}, {}, {}};
-    for (int k = 0; k < 3; ++k)
-      t.x_px[k] = at.x_px[k], t.y_px[k] = at.y_px[k], t.view_z[k] = 1.0 / (1.0 - double{at.z01[k]} / 2.0);
-    result.triangles.push_back(t);
-  }
-  return result;
-}
-
 }  // namespace
 
-Question levels_of(Stage stage) {
-  constexpr const char* kPlaneLevels[] = {"nothing", "drop whole triangles", "clip"};
-  switch (stage) {
-    case kFacing:
-      return question("facing test", kFacingTests);
-    case kVisibility:
-      return question("visibility", kVisibilities);
-    case kDepth: {
-      Question depths = bits_question("depth buffer", 1, kMostDepthBits);
-      depths.answers.push_back({kOtherDepths[0]});
-      return depths;
-    }
-    case kSubpixel:
-      return bits_question("subpixel bits", 0, Coarse::kSubBits);
-    default:
-      return question(std::string(name_of(static_cast<ViewPlane>(stage))), kPlaneLevels);
-  }
+std::string name_of(Stage stage) {
+  constexpr const char* kNames[] = {"facing test", "subpixel bits", "visibility", "depth buffer"};
+  return stage < kViewPlanes ? std::string(name_of(static_cast<ViewPlane>(stage))) : kNames[stage - kFacing];
 }
 
-Question float_depths() {
-  return question("float depth buffer", std::span(kOtherDepths).subspan(1));
+std::vector<std::string> levels_of(Stage stage) {
+  std::vector<std::string> levels;
+  switch (stage) {
+    case kFacing:
+      return {std::begin(kFacingTests), std::end(kFacingTests)};
+    case kVisibility:
+      return {std::begin(kVisibilities), std::end(kVisibilities)};
+    case kDepth:
+      add_bits(levels, 1, kMostDepthBits);
+      levels.insert(levels.end(), std::begin(kOtherDepths), std::end(kOtherDepths));
+      return levels;
+    case kSubpixel:
+      add_bits(levels, 0, Coarse::kSubBits);
+      return levels;
+    default:
+      return {"nothing", "drop whole triangles", "clip"};
+  }
 }
 
 Pipeline exact_pipeline() {
-  Pipeline pipeline{};
-  for (std::size_t s = 0; s < kStages; ++s)
-    pipeline[s] = static_cast<int>(levels_of(static_cast<Stage>(s)).answers.size()) - 1;
-  return pipeline;
+  return {kClip, kClip, kClip, kSnappedArea, Coarse::kSubBits, kDepthBuffer, kMostDepthBits};
 }
 
-Pipeline pipeline_of(const std::map<std::string, std::string>& levels) {
+bool is_weaker(const Pipeline& a, const Pipeline& b) {
+  const bool normals = a[kFacing] != b[kFacing] && a[kFacing] != kNoTest;
+  const bool painters =
+      a[kVisibility] != b[kVisibility] && a[kVisibility] != 0 && b[kVisibility] != kDepthBuffer;
+  return a != b && !normals && !painters &&
+         std::ranges::equal(a, b, [](int less, int more) { return less <= more; });
+}
+
+Pipeline pipeline_of(const Levels& levels) {
   Pipeline pipeline = exact_pipeline();
   std::size_t found = 0;
   for (std::size_t s = 0; s < kStages; ++s) {
-    const Question stage = levels_of(static_cast<Stage>(s));
-    const auto named = levels.find(stage.name);
+    const auto stage = static_cast<Stage>(s);
+    const auto named = levels.find(name_of(stage));
     if (named == levels.end()) continue;
-    const auto level = std::ranges::find(stage.answers, named->second, &Answer::name);
-    if (level == stage.answers.end())
-      throw std::invalid_argument("'" + named->second + "' is no level of '" + stage.name + "'");
-    pipeline[s] = static_cast<int>(level - stage.answers.begin()), ++found;
+    const auto all = levels_of(stage);
+    const auto level = std::ranges::find(all, named->second);
+    if (level == all.end())
+      throw std::invalid_argument("'" + named->second + "' is no level of '" + name_of(stage) + "'");
+    pipeline[s] = static_cast<int>(level - all.begin()), ++found;
   }
   if (found != levels.size()) throw std::invalid_argument("not the stages of a pipeline");
   return pipeline;
+}
+
+std::vector<std::uint32_t> right_picture(const CoverageScene& scene, int threads) {
+  if (scene.truth) return scene.truth->visible_triangles(scene.window(), threads).triangle;
+  auto ids = exact_visible_triangles(scene.floats, scene.window(), threads).triangle;
+  for (std::uint32_t& id : ids)
+    if (id != kNoTriangle) id = scene.floats[id].payload;
+  return ids;
 }
 
 std::vector<std::uint32_t> PipelineMemory::picture() const {
@@ -345,33 +329,19 @@ PipelineFrame::PipelineFrame(const Drawable& drawable, const FrontendOptions& op
 }
 
 void PipelineFrame::draw(const Pipeline& pipeline, PipelineMemory& memory) const {
+  assemble(pipeline, depths_of(pipeline), memory);
+  draw_of(pipeline)(memory.scene, memory.frame);
+}
+
+void PipelineFrame::assemble(const Pipeline& pipeline, Depths depths, PipelineMemory& memory) const {
   const auto* const scene = std::get_if<Scene>(&drawable_);
   const ViewVolume view = scene != nullptr ? view_volume(camera_of(*scene), size_.width, size_.height)
                                            : ViewVolume{double(size_.width), double(size_.height), 0.0, 1.0};
-  Assembly assembly(pipeline, cull_, view, scene == nullptr, memory);
+  Assembly assembly(pipeline, depths, cull_, view, scene == nullptr, memory);
   if (scene != nullptr)
     assembly.add(*scene, centre_);
   else
     assembly.add(std::get<TriangleStream>(drawable_));
-  draw_of(pipeline)(memory.scene, memory.frame);
-}
-
-std::vector<std::uint32_t> PipelineFrame::right() const {
-  PipelineMemory memory;
-  memory.scene = unculled(drawable_, size_);
-  memory.scene.faces.clear();  // they are for painters
-  const auto* const scene = std::get_if<Scene>(&drawable_);
-  std::optional<SourceTriangles> sources;
-  if (scene != nullptr) sources.emplace(*scene);
-  std::erase_if(memory.scene.triangles, [&](const VisibilityTriangle& t) {
-    if (sources) {
-      const auto source = sources->at(t.screen.payload);
-      if (source.mesh.has_flag(source.triangle, kTwoSided)) return false;
-    }
-    return !keeps(cull_, SnappedTruth(t.screen).facing());
-  });
-  memory.frame.visible = snapped_visible_triangles(memory.scene);
-  return memory.picture();
 }
 
 }  // namespace edgewise::lab

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/grid.h"
 #include "edgewise/contract.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
@@ -129,6 +130,28 @@ std::string Ranges::describe(ViewPlane plane) const {
       break;
   }
   return fmt::format("the largest coordinate is {:.4g} px of {}", largest_px_, contract::kMaxImageSide);
+}
+
+std::string Ranges::planes() const {
+  return far_z_ == 0.0 ? "" : fmt::format(", near {:.4g}, far {:.4g}", near_z_, far_z_);
+}
+
+std::string Ranges::integer_edges(int width_px, int height_px) const {
+  std::vector<std::string> words;
+  for (const int word : {32, 64}) {
+    int triangles = -1, picture = -1;
+    while (triangles < kMostSubpixelBits && edge_value_bits(triangles + 1) <= word) ++triangles;
+    // A picture's largest edge value is its area: that of a triangle with two of its sides.
+    const int128 area_px = int128{width_px} * height_px;
+    while (picture < kMostSubpixelBits && width_of(area_px << (2 * (picture + 1))) <= word) ++picture;
+    const double legs_px = std::floor(std::sqrt(std::ldexp(1.0, word - 1) - 1.0) / (1 << Coarse::kSubBits));
+    words.push_back(
+        fmt::format("{}-bit integers hold these triangles up to {}, any in {}x{} px up to {}, and legs of "
+                    "{} px at {}",
+                    word, bits_name(triangles), width_px, height_px, bits_name(picture), legs_px,
+                    bits_name(Coarse::kSubBits)));
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
 }
 
 Question Ranges::edge_values(int subpixel_bits) const {

@@ -29,6 +29,7 @@ class Ranges {
   std::array<Reach, kViewPlanes> add(const StudiedFrame& frame);
   // The same of all frames.
   const Reach& reach(ViewPlane plane) const { return reach_[static_cast<std::size_t>(plane)]; }
+  std::string planes() const;                   // ", near 0.1, far 100"; empty for streams
   std::string describe(ViewPlane plane) const;  // "the nearest vertex is at 3.2, the plane at 0.1"
 
   // The bits, with the sign, of the largest edge value at a sample in a triangle's box and the picture, and
@@ -36,6 +37,9 @@ class Ranges {
   // pixel.
   int edge_value_bits(int subpixel_bits) const { return width_[static_cast<std::size_t>(subpixel_bits)]; }
   Question edge_values(int subpixel_bits) const;
+  // With how many subpixel bits, at most, integers of 32 and 64 bits hold the edge values of these triangles,
+  // and of all triangles in a picture of this size; and how large triangles at 8 bits may be.
+  std::string integer_edges(int width_px, int height_px) const;
 
  private:
   void add_vertex(const ClipVertex& v);
