@@ -125,12 +125,13 @@ std::string text_of(const lab::Levels& pipeline) {
 }
 
 std::string text_of(const lab::Minima& minima, std::uint64_t tolerance_px) {
-  const std::string judged = counted(minima.judged, "pipeline"), most = counted(tolerance_px, "wrong pixel");
+  const std::string most = counted(tolerance_px, "wrong pixel");
   if (minima.right.empty())
-    return fmt::format("no pipeline of {} has at most {} in each frame; the closest: {}\n", minima.judged,
-                       tolerance_px, counted(minima.closest_px, "wrong pixel")) +
+    return fmt::format("no pipeline of {} has at most {} in each frame\n  the closest has {}\n",
+                       minima.judged, most, minima.closest_px) +
            text_of(minima.closest);
-  std::string text = fmt::format("least precise of {}, at most {} in each frame\n", judged, most);
+  std::string text =
+      fmt::format("least precise of {} pipelines, at most {} in each frame\n", minima.judged, most);
   for (const lab::Levels& pipeline : minima.right) text += text_of(pipeline);
   return text;
 }
