@@ -1,6 +1,7 @@
 """Evaluates scripts/claims.toml: the sentences of README.md about results, on every machine's folder in results/ that has the rows."""
 import re
 import tomllib
+from functools import cache
 from pathlib import Path
 
 from bench_rows import gained, read_bench
@@ -17,8 +18,11 @@ class NotTimed(Exception):
     """The folder lacks the rows of an expression."""
 
 
-def of_machine(bench):
+@cache
+def of_machine(folder):
     """What an expression about times may use. Speed-ups are of whole frames."""
+    bench = read_bench(folder)
+
     def ratios(before, after, threads, target=None):
         """The speed-ups from one drawer to another, one per scene. `target` limits the SIMD of `after`."""
         limit = f"/target:{target}" if target not in (None, bench.context.get("simd_target")) else ""
@@ -54,6 +58,7 @@ def of_machine(bench):
     return {"ratios": ratios, "scaling": scaling, "factor": factor, "bands": bands}
 
 
+@cache
 def of_facts(folder):
     """What an expression about errors may use."""
     accuracy = read_json(folder / "accuracy.json")
@@ -96,7 +101,7 @@ def evaluated(claim, results):
     found = {}
     for path in sorted(results.glob("*/bench.json")):
         try:
-            found[path.parent.name] = values(claim, of_machine(read_bench(path.parent)))
+            found[path.parent.name] = values(claim, of_machine(path.parent))
         except NotTimed:
             pass
     return found

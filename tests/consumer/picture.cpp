@@ -7,7 +7,7 @@ using namespace edgewise;
 
 int main() {
   const Scene scene = read_obj("mesh.obj");  // its camera sees the whole mesh
-  Frontend frontend;  // reuse it and the backend: they keep their buffers
+  Frontend frontend;                         // reuse it and the backend: they keep their buffers
   const auto backend = find_backend("tiled").make();
   Framebuffer frame(640, 360);
   draw(scene, frontend, {.width = 640, .height = 360}, *backend, frame.view(), {rgb(30, 30, 40)},
