@@ -107,10 +107,10 @@ struct Words {
 #if HWY_TARGET == HWY_SCALAR
 
 template <typename At>
-HWY_INLINE Words load_words(At&& at) {
+HWY_INLINE Words load_words(At&& at, int first = 0) {
   const D d;
   std::int32_t word[4];
-  std::memcpy(word, at(0), sizeof word);  // they may be floats
+  std::memcpy(word, reinterpret_cast<const std::int32_t*>(at(0)) + first, sizeof word);  // they may be floats
   return {{hn::Set(d, word[0]), hn::Set(d, word[1]), hn::Set(d, word[2]), hn::Set(d, word[3])}};
 }
 
@@ -121,16 +121,16 @@ HWY_INLINE void store_words(const Words& w, At&& at) {
 
 #else
 
-// Loads the records of lanes 0, 4, 8, …, four words each, into consecutive blocks of four lanes.
+// Loads four words of the records of `lane`, lane + 4, lane + 8, …, from word `first` on, into consecutive
+// blocks of four lanes.
 template <class Tag, typename At>
-HWY_INLINE hn::Vec<Tag> load_blocks(Tag d, At&& at) {
+HWY_INLINE hn::Vec<Tag> load_blocks(Tag d, At&& at, int lane, int first) {
   if constexpr (hn::MaxLanes(Tag{}) == 4) {
-    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(at(0)));
+    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(at(lane)) + first);
   } else {
     const hn::Half<Tag> half;
-    constexpr int kUpper = hn::MaxLanes(Tag{}) / 2;
-    return hn::Combine(d, load_blocks(half, [&](int lane) { return at(lane + kUpper); }),
-                       load_blocks(half, at));
+    return hn::Combine(d, load_blocks(half, at, lane + hn::MaxLanes(Tag{}) / 2, first),
+                       load_blocks(half, at, lane, first));
   }
 }
 
@@ -147,13 +147,11 @@ HWY_INLINE Words transpose(const Words& w) {
            hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23))}};
 }
 
-// at(lane) points to the four words of a lane, of any 32-bit type.
+// at(lane) points to the record of a lane, of any 32-bit type. Loads its words first … first + 3.
 template <typename At>
-HWY_INLINE Words load_words(At&& at) {
-  const auto every_fourth = [&](int first) {
-    return load_blocks(D{}, [&](int lane) { return at(lane + first); });
-  };
-  return transpose({{every_fourth(0), every_fourth(1), every_fourth(2), every_fourth(3)}});
+HWY_INLINE Words load_words(At&& at, int first = 0) {
+  return transpose({{load_blocks(D{}, at, 0, first), load_blocks(D{}, at, 1, first),
+                     load_blocks(D{}, at, 2, first), load_blocks(D{}, at, 3, first)}});
 }
 
 template <class Vector, typename At>
@@ -190,10 +188,8 @@ struct TriangleLanes {
 // at(lane) points to the triangle of a lane.
 template <typename At>
 HWY_INLINE TriangleLanes load_triangles(At&& at) {
-  const auto words = [&](int first) {
-    return load_words([&](int lane) { return reinterpret_cast<const std::int32_t*>(at(lane)) + first; });
-  };
-  const Words a = words(0), b = words(4), c = words(6);  // reads words 6 and 7 twice: ten in all
+  // Reads words 6 and 7 twice: ten in all.
+  const Words a = load_words(at), b = load_words(at, 4), c = load_words(at, 6);
   return {{a.word[0], a.word[1], a.word[2]},
           {a.word[3], b.word[0], b.word[1]},
           {b.word[2], b.word[3], c.word[2]},
