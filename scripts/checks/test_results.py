@@ -18,7 +18,7 @@ FAILURES_LISTED = 20
 NAMES_LISTED = 4
 COUNTED = ("cases", "comparisons")  # properties that tests record
 # Test suites with cases of one kind, which can be added up. A parameterized suite is called INSTANCE/SUITE.
-FAMILIES = {"properties": r"Properties|CoverageProperties", "lattices": r"EveryTriangle", "conformance": r"Conformance\w*",
+FAMILIES = {"properties": r"Properties", "lattices": r"EveryTriangle", "conformance": r"Conformance\w*",
             "invalid_input": r"InvalidInput"}
 PASSED, FAILED, SKIPPED = "passed", "failed", "skipped"
 

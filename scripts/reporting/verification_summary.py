@@ -8,7 +8,7 @@ from tables import enumerated, kernels, markdown, plain, short
 HEADER = ["method", "extent", "found"]
 SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
               "thread": "Tests again at the usual size, with the thread sanitizer"}
-FAMILIES = {"properties": ("properties of random streams", "streams"), "lattices": ("exhaustive lattices", "triangles"),
+FAMILIES = {"properties": ("properties of random lists", "lists"), "lattices": ("exhaustive lattices", "triangles"),
             "conformance": ("conformance", "pictures"), "invalid_input": ("invalid input and faults, one per test", "inputs")}
 
 

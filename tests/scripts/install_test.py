@@ -23,7 +23,7 @@ PYTHON = BUILD / "python" / "venv" / "bin" / "python"
 FULL = "EDGEWISE_FULL" in os.environ
 # All that lets a compiler round otherwise. -march=native implies -mfma where the processor has it.
 FAST = "-O3 -march=native -ffast-math -ffp-contract=fast".split()
-LABORATORY_PACKAGES = ("GTest", "benchmark", "CLI11", "fmt", "nlohmann_json", "rapidcheck", "SDL2", "OpenGL")
+LABORATORY_PACKAGES = ("GTest", "benchmark", "CLI11", "fmt", "nlohmann_json", "SDL2", "OpenGL")
 
 
 def cached(name):

@@ -17,8 +17,8 @@ def gtest_case(suite, name, inside="", result="completed", **properties):
 
 SHARDS = [[gtest_case("Properties", "A", cases=40, comparisons=400), gtest_case("Properties", "B"),
            gtest_case("Lattices/EveryTriangle", "E", cases=9)],
-          [gtest_case("CoverageProperties", "C", "<failure/>", cases=2),
-           gtest_case("CoverageProperties", "D", "<skipped/>", "skipped"), gtest_case("ConformanceDepth", "F", cases=5),
+          [gtest_case("Families/Properties", "C", "<failure/>", cases=2),
+           gtest_case("Families/Properties", "D", "<skipped/>", "skipped"), gtest_case("ConformanceDepth", "F", cases=5),
            gtest_case("Table/InvalidInput", "G/0"), gtest_case("Table/InvalidInput", "G/1"),
            gtest_case("VerifyRandom", "H", cases=1000)]]
 CTEST = ["run"] * 3 + ["fail", "disabled"] + ["notrun"] * 2
