@@ -13,7 +13,6 @@ from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_lines, speed_table  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import cracks_of, frontier_figures, points_of, speed_ups, wrong_of  # noqa: E402
-from instructions import instructions_sentence, read_counts  # noqa: E402
 from program import BadInput  # noqa: E402
 from python_tables import python_lines, read_python  # noqa: E402
 
@@ -171,20 +170,6 @@ def entry(scene, near="nothing", facing="normal_z", visibility="submission_order
                       question("subpixel bits, no worse than 8 bits", "8 bits", needed="8 bits"),
                       question("float edges without a crack", "float_lt", "float_le", "double_top_left", needed="double_top_left"),
                       question("edge values at 8 subpixel bits", "32-bit integers", needed="32-bit integers")]}
-
-
-class InstructionsTest(FolderTest):
-    def told(self, counts):
-        return instructions_sentence(self.file("instructions.json", json.dumps(counts)))
-
-    def test_the_second_count_of_a_frame_counts(self):
-        counts = read_counts(["9000 cube scalar frontend", "4000 cube scalar frontend", "1000 cube neon frontend", "3000000 cube scalar tiled",
-                              "2000000 cube neon tiled", "9000 cube scalar scanline", "10000 cube neon scanline"])
-        self.assertEqual(self.told(counts), "Instructions of scalar code over those of NEON code: 4.0× in the front end, 0.90× in `scanline`, 1.5× in `tiled`.")
-
-    def test_what_is_not_a_count_is_refused(self):
-        with self.assertRaises(BadInput):
-            self.told({"cube": {"frontend": {"scalar": 1}}})
 
 
 def compared_packages(**peers):
