@@ -179,8 +179,7 @@ def compared_packages(**peers):
 
     return {"commit": "abc", "versions": {"edgewise": "Edgewise", **{peer: f"{peer} 1" for peer in peers}}, "pictures": [
         {"mesh": "hill", "triangles": 2000, "size": [640, 480], "covered": 5000,
-         "peers": {peer: {"differ": differ, "holes": 2, "farthest_px": 0.00212, "ours_hold": 1, "theirs_hold": 3, "distance_p99": 1.23e-7}
-                   for peer, (_, differ) in peers.items()},
+         "peers": {peer: {"differ": differ, "holes": 2, "distance_p99": 1.23e-7} for peer, (_, differ) in peers.items()},
          "ms": {"edgewise": times(2.0), **{peer: times(2.0 * slower) for peer, (slower, _) in peers.items()}}}]}
 
 
