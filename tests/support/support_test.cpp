@@ -1,5 +1,5 @@
-// The cores that a process may use, names of machines, external text on the terminal and in JSON, and uncaught exceptions.
-// invalid_inputs.h tests signals, streams and limits.
+// The cores that a process may use, names of machines, external text on the terminal and in JSON, and
+// uncaught exceptions. invalid_inputs.h tests signals, streams and limits.
 #include <gtest/gtest.h>
 #include <sched.h>
 
