@@ -122,7 +122,7 @@ void expect_whole(const std::filesystem::path& file) {
 // Sanitizers reserve more memory than the limits allow, and need files and a thread of their own.
 bool starves_sanitizers([[maybe_unused]] const std::string& script) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  for (const auto limit : {"ulimit -v", "ulimit -n", "ulimit -u"})
+  for (const auto limit : {"ulimit -v", "ulimit -u"})
     if (script.find(limit) != std::string::npos) return true;
   return false;
 #else
