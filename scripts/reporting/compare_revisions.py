@@ -205,11 +205,6 @@ class Row:
         return noise.ratio_interval(*self.ms, self.rounds)
 
     @property
-    def p95(self):
-        """Of the repetitions: milliseconds before, after."""
-        return [noise.p95(sum(side, [])) for side in self.times]
-
-    @property
     def claim(self):
         """noise.claim() that the times differ."""
         before_ms, after_ms = self.ms
@@ -272,9 +267,8 @@ def time_rounds(sides, pattern, fewest, rounds, limit_s):
 def line(name, row, width):
     low, high = row.interval
     before_ms, after_ms = map(noise.median, row.ms)
-    before, after = row.p95
     return (f"  {name:<{width}} {before_ms:>8.3f} → {after_ms:>8.3f} ms "
-            f"{row.ratio:>6.3f}  ({low:.3f} to {high:.3f})  {after / before:>5.2f}")
+            f"{row.ratio:>6.3f}  ({low:.3f} to {high:.3f})")
 
 
 def print_names(title, found):
@@ -285,7 +279,7 @@ def print_names(title, found):
 def print_rows(rows, medians_of, verdicts):
     groups = {verdict: {name: row for name, row in rows.items() if row.verdict == verdict} for verdict in VERDICTS}
     print(f"{len(rows)} rows: " + ", ".join(f"{len(group)} {verdict}" for verdict, group in groups.items() if group or verdict != FEW))
-    print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval, ratio of the p95")
+    print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval")
     width = max(map(len, rows), default=0)
     for verdict in verdicts:
         if group := groups[verdict]:
@@ -297,7 +291,7 @@ def record(before, after, pattern, rounds, rows):
     def one(name, row):
         (low, high), (before_ms, after_ms) = row.interval, row.ms
         return {"name": name, "verdict": row.verdict, "ratio": row.ratio, "low": low, "high": high,
-                "before_ms": before_ms, "after_ms": after_ms, "p95_ms": row.p95}
+                "before_ms": before_ms, "after_ms": after_ms}
 
     return {"before": before.title, "after": after.title, "filter": pattern, "rounds": rounds, "layouts": True, "level": noise.LEVEL,
             "confidence": noise.CONFIDENCE, "rows": [one(*item) for item in rows.items()]}

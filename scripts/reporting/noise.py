@@ -131,11 +131,6 @@ def family(claims):
     return orders
 
 
-def p95(values):
-    """The 95th percentile: the least value that 95 % of them do not exceed."""
-    return sorted(values)[math.ceil(0.95 * len(values)) - 1]
-
-
 def middle_of(figures):
     """The interval that leaves out equally many of the figures at both ends, CONFIDENCE within."""
     ordered = sorted(figures)
