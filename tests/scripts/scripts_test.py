@@ -382,9 +382,6 @@ class ChartsTest(unittest.TestCase):
         from bench_rows import Row
         return Row("", "", False, "", keys, list(times_ms))
 
-    def curve(self, *repetitions):
-        return [(10.0 ** i, self.row(*times), 1.0) for i, times in enumerate(repetitions)]
-
     def test_the_chart_of_factors_tells_where_bands_and_tiles_win(self):
         from factors import Duel
         from plot_factors import title
@@ -420,21 +417,6 @@ class ChartsTest(unittest.TestCase):
         from plot_accuracy import chart_rows
         self.assertEqual([row[:2] for row in chart_rows(parse_accuracy(accuracy()), "facing")],
                          [(label, {"ours": "0", "float_le": "5k"}) for label in ("pooled", "knot", "small")])
-
-    def test_straight_lines_cross_where_they_should(self):
-        from plot_area import crossings
-        falling = self.curve(*[[time] * 5 for time in (1000.0, 100.0, 10.0, 1.0)])
-        level = self.curve(*[[30.0] * 5] * 4)
-        [(x, y)] = crossings(falling, level)
-        self.assertAlmostEqual(x, 1000 / 30, places=6)
-        self.assertAlmostEqual(y, 30.0, places=6)
-
-    def test_noise_is_no_crossing_and_one_draw_decides_nothing(self):
-        from plot_area import crossings
-        noisy = self.curve(*[[8.0, middle, 12.0, 8.0, 12.0] for middle in (10.5, 9.5, 10.5)])
-        level = self.curve(*[[8.5, 10.0, 11.5, 8.5, 11.5]] * 3)
-        self.assertEqual(list(crossings(noisy, level)), [])
-        self.assertEqual(list(crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
 
     def test_the_grid_says_who_holds_in_most_sweeps(self):
         from accuracy_rows import Curve, Method, Sweep
