@@ -11,7 +11,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/hash.h"
 #include "lab/cases/random_cases.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "message_of.h"
 #include "queries/exact_barycentrics.h"
 #include "support.h"
