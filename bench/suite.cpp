@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "lab/stage_methods.h"
-#include "scene/polygon.h"
 #include "support/options.h"
 #include "support/printable.h"
 
@@ -18,7 +17,6 @@ namespace edgewise::bench {
 namespace {
 
 constexpr int kThreads[] = {1, 2};  // of all rows but a scene's frames, which may have more
-constexpr int kCullThreads = 2;
 // The backends whose whole frames are repeated as often as cells are, if they are short.
 constexpr std::string_view kCompared[] = {"scanline", "tiled"};
 constexpr double kShortFrame_s = 0.05;
@@ -56,14 +54,6 @@ tools::Source area_source(const SuiteOptions& options, double area_px) {
   const double covered_px = std::max(1.0, static_cast<double>(attempt.covered_px()));
   return random_source(options, at_least_a_few(static_cast<double>(count) * kTargetArea_px / covered_px),
                        area_px);
-}
-
-constexpr const char* kSphereQuadsName = "sphere-quads";
-
-tools::Source sphere_quads(const SceneRequest& request) {
-  Scene scene = std::get<Scene>(find_scene("sphere").make(request));
-  join_cells(scene);
-  return {kSphereQuadsName, std::move(scene), false};
 }
 
 class Suite {
@@ -129,33 +119,6 @@ class Suite {
       for (const auto& backend : backends())
         for (const int threads : kThreads)
           add(workload, Timed::raster, backend, fmt::format("area:{:.0f}", area_px), threads);
-    }
-  }
-
-  // So little work that starting a thread is visible.
-  void add_tiny() {
-    constexpr int kSide_px = 256;
-    const auto workload = scene_workload("cube", kSide_px, kSide_px);
-    for (const auto& backend : backends())
-      for (const int threads : kThreads)
-        add(workload, Timed::raster, backend, fmt::format("cube/tiny:{}x{}", kSide_px, kSide_px), threads);
-  }
-
-  // Whole frames, since culling costs time in the front end and saves it in the backend.
-  void add_cull_sweep() {
-    const SceneRequest wanted = request(options_, options_.width, options_.height);
-    const lab::FacingMethod& trainers = lab::find_facing_method("normal_z");
-    for (const std::string scene : {"cube", "cubes", "sphere", kSphereQuadsName, "torus-knot"}) {
-      const auto load = [scene, wanted] {
-        return scene == kSphereQuadsName ? sphere_quads(wanted) : tools::load_source(scene, wanted, false);
-      };
-      const auto add_mode = [&](Cull cull, std::string_view name, const lab::FacingMethod* facing = nullptr) {
-        const auto workload = std::make_shared<Workload>(options_.width, options_.height, cull, load, facing);
-        for (const auto& backend : backends())
-          add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name), kCullThreads);
-      };
-      for (const Cull cull : {Cull::none, Cull::back}) add_mode(cull, name_of(cull));
-      add_mode(Cull::back, trainers.info.name, &trainers);
     }
   }
 
@@ -328,8 +291,6 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   }
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
-  suite.add_tiny();
-  suite.add_cull_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
     if (scene.timed) suite.add_methods(scene);
   if (!options.needs.empty()) suite.add_pipelines(options.needs);

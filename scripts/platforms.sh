@@ -123,18 +123,8 @@ program_on() {
   noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-*DeathTest.*'
   noted facts_are_those_of_x86_64 "${run[@]}"
 }
-# Counts the instructions of frames, since times in an emulator say nothing: results/instructions.json.
-count_instructions() {
-  local build=$platforms/aarch64-library plugin=$platforms/count_instructions.so
-  build edgewise_counted_frames
-  c++ -std=c++20 -Wall -Wextra -shared -fPIC "$root/tests/platforms/count_instructions.cpp" -o "$plugin"
-  qemu-aarch64 -plugin "$plugin" -L /usr/aarch64-linux-gnu "$build/edgewise_counted_frames" |
-    python3 "$root/scripts/reporting/instructions.py" >"$platforms/instructions.json"
-  mv "$platforms/instructions.json" "$root/results/"
-}
 on_aarch64() {
   library_on aarch64
-  count_instructions
   program_on aarch64 arm64
 }
 on_s390x() {

@@ -37,8 +37,7 @@ namespace {
 // few long ones.
 constexpr double kRepetition_s = 0.012;
 
-// The rounds that time a row. kManyRounds settle a true 1.2x in 95 % of runs, as scripts/README.md shows. The
-// number is fixed: stopping as soon as a pair is settled would find differences that do not exist.
+// The rounds that time a row. Stopping as soon as a pair is settled would find differences that do not exist.
 constexpr int kRounds = 9, kManyRounds = 36;
 // A quick run begins no round beyond kRounds after this time.
 constexpr double kQuickRounds_s = 180.0;
@@ -179,8 +178,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
   if (row.peak_bytes) counters["peak_bytes"] = *row.peak_bytes;
-  if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
-    counters["wrong_px"] = static_cast<double>(*wrong_px);
+  if (row.wrong_px) counters["wrong_px"] = static_cast<double>(*row.wrong_px);
   if (row.timed == Timed::frontend) return;
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;

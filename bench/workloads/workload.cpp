@@ -5,9 +5,8 @@
 
 namespace edgewise::bench {
 
-Workload::Workload(int width, int height, Cull mesh_cull, std::function<tools::Source()> load,
-                   const lab::FacingMethod* facing)
-    : width_(width), height_(height), mesh_cull_(mesh_cull), facing_(facing), load_(std::move(load)) {}
+Workload::Workload(int width, int height, Cull mesh_cull, std::function<tools::Source()> load)
+    : width_(width), height_(height), mesh_cull_(mesh_cull), load_(std::move(load)) {}
 
 FrontendOptions Workload::frontend_options() const {
   FrontendOptions options;
@@ -20,25 +19,11 @@ FrontendOptions Workload::frontend_options() const {
 }
 
 std::span<const ScreenTriangle> Workload::run(Frontend& frontend, const Execution& execution) {
-  FrontendOptions options = frontend_options();
-  if (!hidden_) return frontend.run(source_->drawable, options, execution);
-  options.cull = Cull::none;
-  return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options, execution);
+  return frontend.run(source_->drawable, frontend_options(), execution);
 }
 
 void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution) {
-  if (hidden_)
-    backend.draw(run(frontend, execution), frame, {kBackground}, execution);
-  else
-    edgewise::draw(source_->drawable, frontend, frontend_options(), backend, frame, {kBackground}, execution);
-}
-
-void Workload::drop_hidden(Frontend& frontend) {
-  const Framebuffer exact = drawn();
-  hidden_.emplace(std::get<Scene>(source_->drawable), *facing_);
-  const auto kept = run(frontend, {});
-  triangles_.assign(kept.begin(), kept.end());
-  wrong_px_ = lab::compare(exact, reference()).pixels;
+  edgewise::draw(source_->drawable, frontend, frontend_options(), backend, frame, {kBackground}, execution);
 }
 
 void Workload::prepare(bool keep_scene) {
@@ -49,9 +34,8 @@ void Workload::prepare(bool keep_scene) {
   const auto emitted = frontend.run(source_->drawable, frontend_options());
   triangles_.assign(emitted.begin(), emitted.end());
   submitted_ = frontend.stats().triangles;
-  if (facing_ != nullptr) drop_hidden(frontend);
   covered_px_ = lab::covered_pixels(triangles_, width_, height_);
-  if (!keep_scene) source_.reset(), hidden_.reset();
+  if (!keep_scene) source_.reset();
   prepared_ = true;
 }
 

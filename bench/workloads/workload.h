@@ -1,5 +1,4 @@
-// The input of a benchmark row: one scene at one size and culling mode, loaded when a row first needs it. One
-// of the laboratory's facing tests may replace the front end's culling.
+// The input of a benchmark row: one scene at one size and culling mode, loaded when a row first needs it.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,6 @@
 
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
-#include "lab/hidden_faces.h"
 #include "support/source.h"
 
 namespace edgewise::bench {
@@ -21,10 +19,7 @@ inline constexpr std::uint32_t kBackground = 0xFF000000u;
 class Workload {
  public:
   // Meshes are drawn with `mesh_cull` and shading, streams with neither.
-  // `facing` drops a mesh scene's hidden faces in place of `mesh_cull`. lab::HiddenFaces says which methods
-  // it supports.
-  Workload(int width, int height, Cull mesh_cull, std::function<tools::Source()> load,
-           const lab::FacingMethod* facing = nullptr);
+  Workload(int width, int height, Cull mesh_cull, std::function<tools::Source()> load);
 
   // Loads the scene, runs the front end and counts the covered pixels. Later calls do nothing.
   // `keep_scene` is needed by rows that time the front end; otherwise the scene's memory is freed.
@@ -36,9 +31,6 @@ class Workload {
 
   // Before prepare(); 8 otherwise.
   void set_subpixel_bits(int bits) { subpixel_bits_ = bits; }
-
-  // With `facing`: the pixels of its reference that differ from the exact picture (culled by `mesh_cull`).
-  std::optional<std::uint64_t> wrong_px() const { return wrong_px_; }
 
   // The timed work of a front end row: scene to screen triangles. Requires prepare(true).
   std::span<const ScreenTriangle> run(Frontend& frontend, const Execution& execution);
@@ -56,18 +48,14 @@ class Workload {
 
  private:
   Framebuffer drawn() const;
-  void drop_hidden(Frontend& frontend);
 
   int width_, height_, subpixel_bits_ = FrontendOptions().subpixel_bits;
   Cull mesh_cull_;
-  const lab::FacingMethod* facing_;
   std::function<tools::Source()> load_;
   std::optional<tools::Source> source_;
-  std::optional<lab::HiddenFaces> hidden_;
   bool stream_ = false, prepared_ = false;
   std::vector<ScreenTriangle> triangles_;
   std::uint64_t submitted_ = 0, covered_px_ = 0;
-  std::optional<std::uint64_t> wrong_px_;
   std::optional<Framebuffer> reference_;
 };
 

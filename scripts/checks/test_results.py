@@ -17,9 +17,6 @@ WIDTH = 100
 FAILURES_LISTED = 20
 NAMES_LISTED = 4
 COUNTED = ("cases", "comparisons")  # properties that tests record
-# Test suites with cases of one kind, which can be added up. A parameterized suite is called INSTANCE/SUITE.
-FAMILIES = {"properties": r"Properties|CoverageProperties", "lattices": r"EveryTriangle", "conformance": r"Conformance\w*",
-            "invalid_input": r"InvalidInput"}
 PASSED, FAILED, SKIPPED = "passed", "failed", "skipped"
 
 
@@ -84,16 +81,11 @@ def totals(tests):
 
 
 def added_up(folder):
-    """Of the shards tests-*.xml all tests and those of each family; of the sanitizers' runs so far, the totals."""
+    """Of the shards tests-*.xml all tests, and what they counted; of the sanitizers' runs so far, the totals."""
     tests = [test for path in sorted(folder.glob("tests-*.xml")) for test in read_tests(path)]
     sanitized = [path for path in (folder / "address.xml", folder / "thread.xml") if path.exists() and path.stat().st_size]
-
-    def family(pattern):
-        members = [test for test in tests if re.fullmatch(pattern, test.suite.rpartition("/")[2])]
-        return {**totals(members), **{name: sum(int(test.properties.get(name, 0)) for test in members) for name in COUNTED}}
-
-    return {"all": totals(tests), "families": {name: family(pattern) for name, pattern in FAMILIES.items()},
-            "sanitized": [{"name": path.stem, **totals(read_tests(path))} for path in sanitized]}
+    counted = {name: sum(int(test.properties.get(name, 0)) for test in tests) for name in COUNTED}
+    return {"all": {**totals(tests), **counted}, "sanitized": [{"name": path.stem, **totals(read_tests(path))} for path in sanitized]}
 
 
 def skipped_lines(tests):

@@ -1,11 +1,9 @@
 """The tables of a machine's benchmark."""
 import os
 
-import noise
 from bench_rows import describe_machine, gained, order, read_bench
-from factors import duels
 from program import read_json
-from tables import VECTORS, about, by_order, gain, milliseconds, number, outcome, percent, with_width
+from tables import VECTORS, about, by_order, gain, milliseconds, number, outcome, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -119,7 +117,6 @@ def engine_table(bench):
     return ["numbers", *(f"`{scene}`" for scene in scenes)], lines if scenes else []
 
 
-# The cost of two threads in a small draw.
 def memory_sentence(bench):
     """The peak memory of front end, frame and backend, in the first frame."""
     rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
@@ -139,21 +136,6 @@ def memory_sentence(bench):
     worst = max(rows, key=share)
     return (f"The first frame takes {a_pixel:.1f} bytes per pixel plus {a_triangle:.0f} per triangle, at most {share(worst):.0%} of what "
             f"`edgewise/backend.h` allows small triangles (`{worst.backend}` on `{worst.scene}`); large ones may take more.")
-
-
-TRUE_RATIO, WANTED_POWER = 1.2, 0.95
-
-
-def power_sentence(bench):
-    """How often the rounds of cells settle a difference between bands and tiles, simulated with their noise."""
-    sides = [[row.times_ms for row in duel.fastest] for simd in (True, False) for duel in duels(bench, simd)]
-    rounds = max((len(times) for times, _ in sides), default=0)
-    compared = [pair for pair in sides if [len(times) for times in pair] == [rounds] * 2]
-    if not compared:
-        return NOT_TIMED
-    needed = noise.rounds_for(compared, TRUE_RATIO, WANTED_POWER) or f"more than {noise.MOST_ROUNDS}"
-    return (f"{rounds} rounds settle a true {TRUE_RATIO}× between bands and tiles in {percent(noise.power(compared, TRUE_RATIO, rounds))} of cases, "
-            f"{needed} rounds in {percent(WANTED_POWER)}, simulated with their noise.")
 
 
 def other_folders(folder):

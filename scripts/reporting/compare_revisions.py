@@ -1,5 +1,5 @@
 """Compares rows of two results; or builds the benchmark of two revisions, times both by turns, and judges each row by its paired
-rounds. Checks that judge on one revision against itself."""
+rounds."""
 import os
 import random
 import re
@@ -16,8 +16,8 @@ from pathlib import Path
 from statistics import geometric_mean
 
 import noise
-from bench_rows import read_bench, records
-from program import BadInput, parsed, write_json
+from bench_rows import read_bench
+from program import BadInput, write_json
 from tables import number, percent
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -205,14 +205,9 @@ class Row:
         return noise.ratio_interval(*self.ms, self.rounds)
 
     @property
-    def p95(self):
-        """Of the repetitions: milliseconds before, after."""
-        return [noise.p95(sum(side, [])) for side in self.times]
-
-    def claim(self, factor=1.0):
-        """noise.claim() that the times after, multiplied by `factor`, differ."""
+    def claim(self):
+        """noise.claim() that the times differ."""
         before_ms, after_ms = self.ms
-        after_ms = [factor * ms for ms in after_ms]
         return noise.paired_claim(before_ms, after_ms) if self.rounds else noise.claim(after_ms, before_ms)
 
     def told(self, order):
@@ -224,7 +219,7 @@ class Row:
 
 def judge(rows):
     """Sets the verdicts. Rows of rounds are judged as a family. Two results have too many rows with too few repetitions for that."""
-    claims = [row.claim() for row in rows]
+    claims = [row.claim for row in rows]
     judge_all = noise.family if all(row.rounds for row in rows) else noise.alone
     for row, order in zip(rows, judge_all(claims)):
         row.verdict = row.told(order)
@@ -237,8 +232,7 @@ def show(text):
 
 
 def time_rounds(sides, pattern, fewest, rounds, limit_s):
-    """{name: Row} after `rounds`; where it is None, after as many as fit into `limit_s`: the first ROUNDS, and these again. Also the
-    machine's name."""
+    """{name: Row} after `rounds`; where it is None, after as many as fit into `limit_s`: the first ROUNDS, and these again."""
     rows, start, programs = {}, time.monotonic(), rounds or ROUNDS
     try:
         for done in count():
@@ -248,7 +242,7 @@ def time_rounds(sides, pattern, fewest, rounds, limit_s):
                 raise BadInput(f"one round takes {spent:.0f} s, and {fewest} are the fewest that settle so many rows: "
                                f"--minutes {fewest * spent / 60 + 1:.0f} or fewer rows are needed")
             if done == rounds or rounds is None and done and done + 1 > fit:
-                return rows, results[0].context.get("machine", "")
+                return rows
             show(f"round {done + 1}{f' of {rounds}' if rounds else ''}, {spent:.0f} s"
                  f"{'' if rounds else f' of {limit_s:.0f}'}")
             # Before, after, after, before: a steady drift of the machine favours neither side.
@@ -273,9 +267,8 @@ def time_rounds(sides, pattern, fewest, rounds, limit_s):
 def line(name, row, width):
     low, high = row.interval
     before_ms, after_ms = map(noise.median, row.ms)
-    before, after = row.p95
     return (f"  {name:<{width}} {before_ms:>8.3f} → {after_ms:>8.3f} ms "
-            f"{row.ratio:>6.3f}  ({low:.3f} to {high:.3f})  {after / before:>5.2f}")
+            f"{row.ratio:>6.3f}  ({low:.3f} to {high:.3f})")
 
 
 def print_names(title, found):
@@ -286,7 +279,7 @@ def print_names(title, found):
 def print_rows(rows, medians_of, verdicts):
     groups = {verdict: {name: row for name, row in rows.items() if row.verdict == verdict} for verdict in VERDICTS}
     print(f"{len(rows)} rows: " + ", ".join(f"{len(group)} {verdict}" for verdict, group in groups.items() if group or verdict != FEW))
-    print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval, ratio of the p95")
+    print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval")
     width = max(map(len, rows), default=0)
     for verdict in verdicts:
         if group := groups[verdict]:
@@ -298,7 +291,7 @@ def record(before, after, pattern, rounds, rows):
     def one(name, row):
         (low, high), (before_ms, after_ms) = row.interval, row.ms
         return {"name": name, "verdict": row.verdict, "ratio": row.ratio, "low": low, "high": high,
-                "before_ms": before_ms, "after_ms": after_ms, "p95_ms": row.p95}
+                "before_ms": before_ms, "after_ms": after_ms}
 
     return {"before": before.title, "after": after.title, "filter": pattern, "rounds": rounds, "layouts": True, "level": noise.LEVEL,
             "confidence": noise.CONFIDENCE, "rows": [one(*item) for item in rows.items()]}
@@ -318,10 +311,8 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
         fewest = noise.fewest_rounds(noise.LEVEL / len(shared))
         if (rounds or ROUNDS) < fewest:
             raise BadInput(f"{rounds or ROUNDS} rounds settle nothing; {fewest} are the fewest for {len(shared)} rows")
-        rows, machine = time_rounds(sides, pattern, fewest, rounds, 60 * minutes)
+        rows = time_rounds(sides, pattern, fewest, rounds, 60 * minutes)
     print(f"Before: {before.title}\nAfter:  {after.title}")
-    if before != after:
-        print(same_revision(machine))
     done, judged = print_compared(rows, listed)
     if out:
         write_json(out, record(before, after, pattern, done, judged))
@@ -348,8 +339,7 @@ def print_compared(rows, listed, verdicts=VERDICTS):
     print(f"\n{done} rounds, before and after by turns; " if done else "", end="")
     print_rows(judged, "rounds" if done else "repetitions", verdicts)
     if judged and done:
-        print(f"\nThe chance that any of these changes is false: at most {percent(noise.LEVEL)}.\n"
-              f"Of {len(judged)} planted slowdowns of {percent(PLANTED - 1)}, {planted(judged.values())} would be found.")
+        print(f"\nThe chance that any of these changes is false: at most {percent(noise.LEVEL)}.")
     elif judged:
         print(f"\nIf nothing changed, at most {number(noise.LEVEL * len(judged), 2)} rows in {len(judged)} would be told as changed.")
     print_names("Not compared: other triangles, pixels or size", different)
@@ -369,48 +359,3 @@ def interruptible(compare):
     except KeyboardInterrupt:
         print("compare: interrupted: no result", file=sys.stderr)
         return 130
-
-
-PLANTED, LARGER = 1.02, (1.1, 1.2)
-
-
-def planted(rows):
-    """In how many rows the slowdown would be found if they had no other."""
-    return noise.family([row.claim(PLANTED / row.ratio) for row in rows]).count(1)
-
-
-def differing(pairs, judge_all):
-    """"1 of 60": pairs that differ."""
-    orders = judge_all([noise.paired_claim(*pair) for pair in pairs])
-    return f"{sum(map(abs, orders))} of {len(pairs)}"
-
-
-def parse_same(data):
-    """[(milliseconds before, after)] of each row, the number of rounds, and whether each round had another layout of the code."""
-    if data["before"] != data["after"]:
-        raise ValueError("two different revisions")
-    return [(row["before_ms"], row["after_ms"]) for row in data["rows"]], data["rounds"], data.get("layouts", False)
-
-
-def same_revision(machine):
-    """How often the same revision twice differed on this machine."""
-    records = sorted((ROOT / "results" / machine).glob("same*.json")) if machine else []
-    told = [differing(parsed(path, parse_same, "scripts/compare --json")[0], noise.family) for path in records]
-    return f"The same revision twice on this machine: {', '.join(told)} rows changed" if told else \
-        "The same revision twice was not timed on this machine:\n  scripts/compare HEAD HEAD --json results/MACHINE/same.json"
-
-
-def noise_table(folder):
-    """Header and lines from same.json, written by `scripts/compare REV REV --json`: false alarms, and how often a planted slowdown is
-    found, on all machines, this one first; no lines if not measured."""
-    lines = []
-    for path in records(folder, "same*"):
-        pairs, rounds, layouts = parsed(path, parse_same, "scripts/compare --json")
-        slower = [[(before, [by / noise.median_ratio(before, after, True) * ms for ms in after]) for before, after in pairs]
-                  for by in (PLANTED, *LARGER)]
-        lines.append([f"`{path.parent.name}`", "yes" if layouts else "no", str(rounds), differing(pairs, noise.alone), differing(pairs, noise.family),
-                      *(differing(of, noise.family) for of in slower)])
-    if lines and not list(folder.glob("same*.json")):
-        lines.insert(0, [f"`{folder.name}`", *["–"] * 7])
-    return ["machine", "new layout each round", "rounds", "false alarms, each row alone", "false alarms, as a family",
-            *(f"{percent(by - 1)} slowdowns found" for by in (PLANTED, *LARGER))], lines

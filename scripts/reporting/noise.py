@@ -17,7 +17,6 @@ against the repetitions in results/.
 import math
 import random
 import statistics
-from bisect import bisect_left
 from functools import cache
 from itertools import accumulate, count
 
@@ -27,8 +26,6 @@ GAP = 2.0
 # The machine drifts between runs at different times, so smaller changes of a median are not reported.
 DRIFT = 0.03
 RESAMPLES = 2000
-DRAWS = 100  # of each pair, for the power of the test
-MOST_ROUNDS = 99
 
 median = statistics.median
 
@@ -132,29 +129,6 @@ def family(claims):
             break
         orders[i] = sign
     return orders
-
-
-def power(pairs, ratio, rounds):
-    """How often so many rounds settle that one side is slower by `ratio`. The noise is that of `pairs` of times of the same
-    rounds: each is simulated DRAWS times, by rounds drawn from its own."""
-    generator, found = random.Random(1), 0
-    for before, after in pairs:
-        own = ratios(before, after)
-        level = ratio / median(own)
-        found += sum(paired_order([1.0] * rounds, [level * noise for noise in generator.choices(own, k=rounds)]) > 0 for _ in range(DRAWS))
-    return found / (DRAWS * len(pairs))
-
-
-def rounds_for(pairs, ratio, wanted):
-    """The fewest rounds with so much power(), None if MOST_ROUNDS have less."""
-    rounds = range(fewest_rounds(), MOST_ROUNDS + 1)
-    at = bisect_left(rounds, wanted, key=lambda count: power(pairs, ratio, count))
-    return rounds[at] if at < len(rounds) else None
-
-
-def p95(values):
-    """The 95th percentile: the least value that 95 % of them do not exceed."""
-    return sorted(values)[math.ceil(0.95 * len(values)) - 1]
 
 
 def middle_of(figures):

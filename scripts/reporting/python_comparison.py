@@ -33,23 +33,14 @@ BUILT_IN = {"sphere": (192, 128, ball), "terrain": (512, 512, hills)}
 
 
 def read_obj(path):
-    """The positions and triangles of an OBJ file. Faces become fans, as in Edgewise."""
+    import edgewise
     try:
-        lines = [line.split() for line in path.read_text(encoding="utf-8", errors="replace").splitlines()]
-        positions, faces = [], []
-        for keyword, *values in filter(None, lines):
-            if keyword == "v":
-                positions.append(values[:3])
-            elif keyword == "f":  # negative numbers count back from the last position
-                numbers = [int(corner.partition("/")[0]) for corner in values]
-                faces.append([n - 1 if n > 0 else len(positions) + n for n in numbers])
-        triangles = [(face[0], *face[i:i + 2]) for face in faces for i in range(1, len(face) - 1)]
-        mesh = Mesh(np.array(positions, np.float32).reshape(-1, 3), np.array(triangles).astype(np.uint32).reshape(-1, 3))
-    except (OSError, ValueError, OverflowError) as error:
-        raise BadInput(f"{path}: {error}") from None
-    if not 0 < len(mesh.triangles) < BACKGROUND or mesh.triangles.max() >= len(mesh.positions):
-        raise BadInput(f"{path}: no triangles, too many, or an index out of range")
-    return mesh
+        mesh = edgewise.Scene.read_obj(path).meshes()[0]
+    except OSError as error:
+        raise BadInput(error) from None
+    if len(mesh.triangles) >= BACKGROUND:
+        raise BadInput(f"{path}: too many triangles")
+    return Mesh(mesh.positions.astype(np.float32), mesh.triangles)
 
 
 def view_of(mesh, size):
@@ -76,35 +67,13 @@ def around(mask):
     return inside
 
 
-def corners(mesh, view, ids):
-    """(n, 3, 2): the corners of these triangles in pixels, in doubles and not rounded; far away for background."""
-    seen = np.full((len(ids), 3, 2), 1e9)
-    drawn = ids != BACKGROUND
-    points = mesh.positions[mesh.triangles[ids[drawn]]].astype(float) @ view.world_to_camera[:3, :3].T + view.world_to_camera[:3, 3]
-    seen[drawn] = (points @ view.k.T)[..., :2] / points[..., 2:]
-    return seen
-
-
-def from_edges(pixels, triangles):
-    """Of each triangle: how far its edges are from the pixel's centre, and whether they go round it."""
-    edges = np.roll(triangles, -1, 1) - triangles
-    away = pixels[:, None] - triangles
-    along = np.clip((edges * away).sum(-1) / np.maximum((edges * edges).sum(-1), 1e-30), 0, 1)
-    sides = np.sign(edges[..., 0] * away[..., 1] - edges[..., 1] * away[..., 0])
-    return np.linalg.norm(away - along[..., None] * edges, axis=-1).min(-1), abs(sides.sum(-1)) == 3
-
-
-def compared(mesh, view, ours, theirs):
+def compared(ours, theirs):
     """How another picture differs from ours; each is (ids, distances)."""
     (our_ids, our_distances), (ids, distances) = ours, theirs
     differ = ids != our_ids
-    pixels = np.argwhere(differ)[:, ::-1] + 0.5
-    (our_px, our_centres), (px, centres) = (from_edges(pixels, corners(mesh, view, picture[differ])) for picture in (our_ids, ids))
     same = ~differ & (our_ids != BACKGROUND)
     apart = abs(distances - our_distances)[same] / our_distances[same]
     return {"differ": int(differ.sum()), "holes": int(((ids == BACKGROUND) & around(our_ids != BACKGROUND)).sum()),
-            "farthest_px": float(np.minimum(our_px, px).max(initial=0)), "ours_hold": int((our_centres & ~centres).sum()),
-            "theirs_hold": int((centres & ~our_centres).sum()),
             "distance_p99": float(np.quantile(apart, 0.99)) if apart.size else 0.0}
 
 
@@ -133,7 +102,7 @@ def comparison(meshes, sizes, rounds, tell):
             ours = drawn[OURS, THREADS[0]]
             if any((of[0] != drawn[name, THREADS[0]][0]).any() for (name, _), of in drawn.items()):
                 raise BadInput(f"{name}: the number of threads changes the picture")
-            peers = {other: compared(mesh, view, ours, drawn[other, THREADS[0]]) for other in DRAWERS if other != OURS}
+            peers = {other: compared(ours, drawn[other, THREADS[0]]) for other in DRAWERS if other != OURS}
             tell(f"{name}, {size[0]} × {size[1]}: " + ", ".join(f"{other} differs in {of['differ']:,} px" for other, of in peers.items()))
             pictures.append({"mesh": name, "triangles": len(mesh.triangles), "size": size, "covered": int((ours[0] != BACKGROUND).sum()),
                              "peers": peers, "ms": timed(drawers, mesh, view, rounds)})

@@ -6,10 +6,6 @@ from program import Parser, main_guard, read_json
 from tables import enumerated, kernels, markdown, plain, short
 
 HEADER = ["method", "extent", "found"]
-SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
-              "thread": "Tests again at the usual size, with the thread sanitizer"}
-FAMILIES = {"properties": ("properties of random streams", "streams"), "lattices": ("exhaustive lattices", "triangles"),
-            "conformance": ("conformance", "pictures"), "invalid_input": ("invalid input and faults, one per test", "inputs")}
 
 
 def none_or(count, what, plural=None):
@@ -30,17 +26,6 @@ def ran(totals):
     return how_many(totals["tests"], "test") + skipped
 
 
-def test_lines(data):
-    yield ["Tests at full size", ran(data["all"]), none_or(data["all"]["failed"], "failure")]
-    for name, totals in data["families"].items():
-        what, cases = FAMILIES[name]
-        covered = [f"{short(totals[key])} {unit}" for key, unit in (("cases", cases), ("comparisons", "comparisons"))
-                   if totals[key]]
-        yield [f"Of them, {what}", ", ".join([ran(totals), *covered]), none_or(totals["failed"], "failure")]
-    for run in data["sanitized"]:
-        yield [SANITIZERS.get(run["name"], run["name"]), ran(run), none_or(run["failed"], "failure")]
-
-
 def prove_lines(data):
     claims = data["claims"]
     yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, each with a deliberately false variant",
@@ -53,15 +38,8 @@ def mutate_lines(data):
            all_of(data["caught"], data["mutations"], "caught")]
 
 
-def fuzz_lines(data):
-    for target in data["targets"]:
-        yield [f"Fuzzing: {target['what']}", f"{short(target['executions'])} executions",
-               none_or(len(target["crashes"]), "crash", "crashes")]
-
-
-def brief_test_lines(data):
-    families = data["families"].values()
-    cases, comparisons = (short(sum(totals[key] for totals in families)) for key in ("cases", "comparisons"))
+def test_lines(data):
+    cases, comparisons = (short(data["all"][key]) for key in ("cases", "comparisons"))
     yield ["Tests at full size", f"{ran(data['all'])}; {cases} random or exhaustive cases, {comparisons} comparisons",
            none_or(data["all"]["failed"], "failure")]
     if runs := data["sanitized"]:
@@ -69,7 +47,7 @@ def brief_test_lines(data):
                how_many(sum(run["tests"] for run in runs), "test"), none_or(sum(run["failed"] for run in runs), "failure")]
 
 
-def brief_fuzz_lines(data):
+def fuzz_lines(data):
     targets = data["targets"]
     yield ["Fuzzing", f"{how_many(len(targets), 'target')}, {short(sum(target['executions'] for target in targets))} executions in "
            f"{data['cpu_hours']:.1f} CPU hours",
@@ -102,14 +80,13 @@ def verify_sentence(verify, where=""):
     return f"{extent}, were compared bit for bit: {f'**{differing:,} pixels differ**{where}' if differing else '**no bit differs**'}."
 
 
-LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "random": random_lines}
-BRIEF_LINES = {"verify": verify_lines, **LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
+LINES = {"verify": verify_lines, "tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "random": random_lines}
 
 
-def verification_table(folder, all_lines=LINES):
+def verification_table(folder):
     """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
     lines = []
-    for name, lines_of in all_lines.items():
+    for name, lines_of in LINES.items():
         paths = records(folder, name)
         # Of random pictures all: each machine runs its own SIMD targets.
         for path in paths if name == "random" else paths[:1]:
@@ -119,8 +96,8 @@ def verification_table(folder, all_lines=LINES):
     return HEADER, lines
 
 
-def verification_markdown(folder, all_lines=LINES):
-    header, lines = verification_table(folder, all_lines)
+def verification_markdown(folder):
+    header, lines = verification_table(folder)
     return markdown(header, lines, "|---|---|---|") if lines else "None of this was run for these results."
 
 

@@ -11,7 +11,7 @@
 #include "core/input_file.h"
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "support/console.h"
 #include "support/options.h"
 #include "support/output_path.h"

@@ -1,5 +1,9 @@
 #include "support/printable.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace edgewise::tools {
 
 namespace {
@@ -36,16 +40,6 @@ bool is_control(char32_t code) {
          (code >= 0x2066 && code <= 0x2069);
 }
 
-// Columns as {fmt} counts them: two for East Asian wide characters and pictographs.
-std::size_t columns_of(char32_t code) {
-  const auto within = [code](char32_t first, char32_t last) { return code >= first && code <= last; };
-  const bool wide = within(0x1100, 0x115F) || within(0x2E80, 0xA4CF) || within(0xAC00, 0xD7A3) ||
-                    within(0xF900, 0xFAFF) || within(0xFE30, 0xFE6F) || within(0xFF00, 0xFF60) ||
-                    within(0xFFE0, 0xFFE6) || within(0x1F300, 0x1F64F) || within(0x1F900, 0x1F9FF) ||
-                    within(0x20000, 0x3FFFD);
-  return wide ? 2 : 1;
-}
-
 }  // namespace
 
 std::string printable(std::string_view text, char replacement) {
@@ -62,18 +56,10 @@ std::string printable(std::string_view text, char replacement) {
 }
 
 std::string printable_within(std::string_view text, std::size_t columns) {
-  constexpr std::string_view kEllipsis = "..";
   const std::string whole = printable(text);
-  const std::size_t room = columns > kEllipsis.size() ? columns - kEllipsis.size() : 0;
-  std::size_t used = 0, fitting = 0;  // columns; bytes that leave room for kEllipsis
-  for (std::string_view rest = whole; !rest.empty();) {
-    const Character c = first_character(rest);
-    used += columns_of(c.code);
-    if (used > columns) return whole.substr(0, fitting) + std::string(kEllipsis.substr(0, columns));
-    rest.remove_prefix(c.bytes.size());
-    if (used <= room) fitting = whole.size() - rest.size();
-  }
-  return whole;
+  const int most = static_cast<int>(columns);
+  if (fmt::format("{:.{}}", whole, most) == whole) return whole;
+  return fmt::format("{:.{}}{:.{}}", whole, std::max(0, most - 2), "..", most);
 }
 
 }  // namespace edgewise::tools

@@ -9,7 +9,7 @@ namespace edgewise::tools {
 // Returns valid UTF-8 without control characters: replaces each control character and each invalid byte.
 std::string printable(std::string_view text, char replacement = '?');
 
-// The same, cut to a number of columns; a cut text ends in "..". Characters are never split.
+// The same, cut to a number of characters; a cut text ends in "..". Characters are never split.
 std::string printable_within(std::string_view text, std::size_t columns);
 
 }  // namespace edgewise::tools

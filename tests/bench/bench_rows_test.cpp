@@ -200,29 +200,6 @@ TEST(BenchSuite, TimesCellsThatDrawTheReference) {
       }
 }
 
-TEST(BenchSuite, TimesThreeCullingModes) {
-  std::map<std::string, Row> rows = small_rows(160, 90);
-  Stage stage;
-  for (const std::string scene : {"cube", "cubes", "sphere", "sphere-quads", "torus-knot"})
-    for (const std::string mode : {"none", "back", "normal_z"})
-      for (const BackendInfo& backend : backends())
-        ASSERT_TRUE(
-            rows.contains(std::string(backend.name) + "+frontend/" + scene + "/cull:" + mode + "/threads:2"))
-            << scene << ", " << mode;
-  const auto wrong_px = [&](const std::string& name) {
-    Row& row = rows.at(name);
-    row.workload->prepare(true);
-    stage.compare(row);
-    EXPECT_EQ(row.error, "") << name;
-    return row.workload->wrong_px();
-  };
-  EXPECT_FALSE(wrong_px("tiled+frontend/cubes/cull:back/threads:2").has_value());
-  EXPECT_GT(wrong_px("tiled+frontend/cubes/cull:normal_z/threads:2").value(), 0u);
-  const Row& quads = rows.at("naive+frontend/sphere-quads/cull:normal_z/threads:2");
-  quads.workload->prepare(true);
-  EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_flag(1, kSameFace));
-}
-
 std::map<std::string, Row> method_rows(const SuiteOptions& options) {
   std::map<std::string, Row> rows;
   for (Row& row : make_suite(options))

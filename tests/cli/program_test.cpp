@@ -1,9 +1,7 @@
 // The program's commands on valid input; invalid_inputs.h has the invalid ones.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,7 +14,6 @@
 #include "edgewise/hash.h"
 #include "edgewise/image.h"
 #include "run_program.h"
-#include "support/machine.h"
 #include "temp_dir.h"
 
 namespace edgewise {
@@ -73,13 +70,6 @@ TEST(Program, ListNamesAllRegistries) {
 
   const std::string text = edgewise_with("list").out;
   for (const auto& name : names_of(builtin_scenes())) EXPECT_NE(text.find(name), std::string::npos) << name;
-}
-
-TEST(Program, RendersWithACompositionByName) {
-  const std::string arguments = "render cubes --size 90x51 -o - --format ppm --backend ";
-  const Outcome tiled = edgewise_with(arguments + "tiled");
-  ASSERT_EQ(tiled.status, 0) << tiled.err;
-  EXPECT_EQ(edgewise_with(arguments + "tiles+spans").out, tiled.out);
 }
 
 TEST(Program, HashesAreThoseOfEveryBackendAndAddUp) {
@@ -155,24 +145,6 @@ TEST(Program, SendsNoCursorControlsToADumbTerminal) {
     EXPECT_EQ(refused.out.find('\x1b'), std::string::npos) << refused.out;
     EXPECT_NE(refused.out.find("cursor control"), std::string::npos) << refused.out;
   }
-}
-
-// Results of different machines must not share a folder.
-TEST(Program, DistinguishesCpusWithTheSameModelName) {
-  TempDir folder;
-  const auto model_of = [&](const std::string& name, const std::string& more) {
-    const std::string path = (folder.path() / "cpuinfo").string();
-    std::ofstream(path) << "processor\t: 0\n" + more + "model name\t: " + name + "\nstepping\t: 1\n";
-    return tools::cpu_model(path);
-  };
-  EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 25\nmodel\t\t: 17\n"), "AMD EPYC (family 25, model 17)");
-  EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 26\nmodel\t\t: 2\n"), "AMD EPYC (family 26, model 2)");
-  EXPECT_EQ(model_of("Intel(R) Xeon(R) Processor", "cpu family\t: 6\nmodel\t\t: 207\n"),
-            "Intel Xeon (family 6, model 207)");
-  EXPECT_EQ(model_of("Some core", ""), "Some core");
-  EXPECT_EQ(model_of("", "CPU implementer\t: 0x41\nCPU part\t: 0xd0c\n"),
-            "ARM (implementer 0x41, part 0xd0c)");
-  EXPECT_EQ(tools::cpu_model((folder.path() / "missing").string()), "unknown");
 }
 
 class ProgramRenders : public ::testing::Test {
@@ -425,7 +397,6 @@ TEST_F(ProgramRenders, FilesFromStandardInput) {
     }
 }
 
-// The cases of bug reports on comparers of pictures.
 TEST_F(ProgramRenders, FilesWhoseSamplesAreEqualOrDiffer) {
   using namespace std::string_literals;
   folder_.write("a.ppm", "P6\n2 1\n255\n\1\2\3\xff\0\x80"s);
@@ -436,23 +407,10 @@ TEST_F(ProgramRenders, FilesWhoseSamplesAreEqualOrDiffer) {
             "1 of 2 pixels differ, by up to 1 of 65535; the first at x 1, y 0\n");
   EXPECT_EQ(script_in(folder_, "edgewise diff --json a.ppm c.ppm").out,
             "{\"differing\":1,\"first\":[1,0],\"largest\":1.0,\"pixels\":2,\"scale\":65535}\n");
-  folder_.write("d.ppm", "P3 2 1 255 1 2 3 255 0 128");
-  EXPECT_EQ(script_in(folder_, "edgewise diff a.ppm d.ppm").out, "equal: 2 pixels\n");
   folder_.write("zero.pfm", "Pf 1 1 -1\n\0\0\0\0"s);
   folder_.write("nan.pfm", "Pf 1 1 -1\n\0\0\300\177"s);
   EXPECT_EQ(script_in(folder_, "edgewise diff --json zero.pfm nan.pfm").out,
             "{\"differing\":1,\"first\":[0,0],\"infinite\":true,\"largest\":null,\"pixels\":1}\n");
-  // Without IEND, and with an alpha of 7.
-  folder_.write(
-      "rgba.png",
-      "\211PNG\015\012\032\012\000\000\000\015IHDR\000\000\000\001\000\000\000\001\010\006\000\000\000\037\025\304\211\000\000\000\015IDATx\234c`dbf\007\000\000\034\000\016G\242\223\335"s);
-  folder_.write("rgb.ppm", "P6 1 1 255 \1\2\3");
-  const Outcome alpha = script_in(folder_, "edgewise diff rgba.png rgb.ppm");
-  EXPECT_EQ(alpha.out, "equal: 1 pixels; alpha differs in 1 pixels\n");
-  EXPECT_EQ(alpha.err, "warning: rgba.png: ends after its pixels, without IEND\n");
-  EXPECT_EQ(script_in(folder_, "edgewise diff --json rgba.png rgb.ppm").out,
-            "{\"differing\":0,\"differing_in_alpha\":1,\"first\":null,\"largest\":0.0,\"pixels\":1,\"scale\":"
-            "255}\n");
   // A mask of 16 bits counts by its samples, which 8 bits would round to black.
   folder_.write("mask.ppm", "P6 2 1 65535\n\0\0\0\0\0\0\0\0\0\0\0\1"s);
   EXPECT_EQ(script_in(folder_, "edgewise diff a.ppm c.ppm --mask mask.ppm").status, 0);
@@ -547,18 +505,6 @@ TEST(Program, NeedsTurnsACameraThatIsStraightAbove) {
   }
 }
 
-TEST_F(ProgramRenders, TheSamePictureStraightDownWhateverTheSignOfAZero) {
-  const auto picture = [&](const std::string& camera) {
-    const Outcome outcome =
-        edgewise_with("render cubes --cull none --size 40x40 --eye 0,9,0 " + camera + " -o " + path("a.ppm"));
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return file_content(path("a.ppm"));
-  };
-  const std::string expected = picture("--yaw 0 --pitch -90");
-  for (const char* at : {"0,0,0", "0,0,-0", "-0,0,0", "-0,-0,-0"})
-    EXPECT_TRUE(picture(std::string("--at ") + at) == expected) << at;
-}
-
 TEST_F(ProgramRenders, AnEmptyPictureAndSaysWhy) {
   const std::pair<const char*, const char*> reasons[] = {
       {"--eye 0,0,9 --yaw 180", "12 triangles outside the view"},
@@ -602,73 +548,6 @@ TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {
     EXPECT_EQ(wrong, 0) << backend;
   EXPECT_EQ(json.at("scenes")[1].at("pixels_not_hit_once").size(), backends().size());
   EXPECT_FALSE(std::filesystem::exists(path("out")));
-}
-
-// A floor of 20 x 20 squares around (x, 0, -2 x). Floats hold its vertices exactly.
-std::string floor_at(int x) {
-  std::string obj;
-  for (int i = 0; i <= 20; ++i)
-    for (int k = 0; k <= 20; ++k) obj += fmt::format("v {} 0 {}\n", x - 50 + 5 * i, -2 * x - 50 + 5 * k);
-  for (int i = 0; i < 20; ++i)
-    for (int k = 0; k < 20; ++k) {
-      const int corner = 21 * i + k + 1;
-      obj += fmt::format("f {} {} {} {}\n", corner, corner + 1, corner + 22, corner + 21);
-    }
-  return obj;
-}
-
-TEST_F(ProgramRenders, AFloorTheSameWhereverTheOriginLies) {
-  for (const char* const yaw : {"30", "31", "32", "33"}) {
-    const auto drawn = [&](int x) {
-      const std::string eye = fmt::format("{},2,{}", x, -2 * x), file = path("a.ppm");
-      const Outcome run =
-          edgewise_with("render " + folder_.write("floor.obj", floor_at(x)).string() +
-                        " --size 320x200 --cull none --eye " + eye + " --yaw " + yaw +
-                        " --pitch -15 --fov 60 --near 0.001 --far 1000 --payload hits -o " + file);
-      EXPECT_EQ(run.status, 0) << run.err;
-      EXPECT_NE(run.out.find("once 4445"), std::string::npos) << run.out;
-      return read_image(file).pixels;
-    };
-    const auto near = drawn(0);
-    EXPECT_EQ(near, drawn(10'000)) << yaw;
-    EXPECT_EQ(near, drawn(100'000)) << yaw;
-  }
-}
-
-TEST_F(ProgramRenders, EveryTriangleOfSurveyCoordinates) {
-  std::string stairs;  // of 20 steps
-  for (int step = 0; step < 20; ++step) {
-    const double x = 412345.25 + 0.29 * step, y = 0.17 * step;
-    for (const double z : {-5572094.5, -5572095.7})
-      stairs += fmt::format("v {0:.3f} {1:.3f} {2}\nv {0:.3f} {3:.3f} {2}\nv {4:.3f} {3:.3f} {2}\n", x, y, z,
-                            y + 0.17, x + 0.29);
-    stairs += "f -5 -4 -1 -2\nf -6 -5 -2 -3\n";  // the tread and the riser
-  }
-  const std::string file = folder_.write("stairs.obj", stairs).string();
-  for (const char* const how : {"", " --fit", " --recentre"}) {
-    const Outcome run =
-        edgewise_with("render " + file + " --cull none --size 400x300 -o " + path("a.png") + how);
-    EXPECT_NE(run.out.find("80 triangles, 80 drawn"), std::string::npos) << run.out << run.err;
-  }
-}
-
-// The corners are 10^8 away, the camera 1 above the plane: its horizon is where the far plane cuts it.
-TEST_F(ProgramRenders, APlaneWhoseCornersAreFarAway) {
-  const auto plane = folder_.write(
-      "plane.obj", "v -1e8 0 -1e8\nv 1e8 0 -1e8\nv 1e8 0 1e8\nv -1e8 0 1e8\nf 1 4 3\nf 1 3 2\n");
-  const std::string file = path("a.ppm");
-  const Outcome run =
-      edgewise_with("render " + plane.string() +
-                    " --cull none --eye 0.37,1,0.21 --yaw 31 --pitch -20 --fov 75 --near 0.001"
-                    " --far 1e5 --size 320x200 --no-shade -o " +
-                    file);
-  ASSERT_EQ(run.status, 0) << run.err;
-  const Image image = read_image(file);
-  const double focal = 100 / std::tan(75 * 3.14159265358979 / 360);
-  const int horizon = static_cast<int>(std::ceil(100 - focal * std::tan(20 * 3.14159265358979 / 180) - 0.5));
-  for (int y = 0; y < image.height; ++y)
-    EXPECT_EQ(image.pixels[static_cast<std::size_t>(y * image.width + 160)] != 0xFF000000u, y >= horizon)
-        << y;
 }
 
 }  // namespace

@@ -138,21 +138,6 @@ TEST(RandomCases, SomeScenesHaveMatrices) {
   EXPECT_GT(drawn, 10 * cases);
 }
 
-TEST(RandomCases, KeepTheGuardBandAtEverySize) {
-  for (const std::string_view family : lab::triangle_families())
-    for (std::uint64_t seed = 0; seed < 200; ++seed) {
-      const int width = seed % 2 == 0 ? contract::kMaxImageSide : 1 + static_cast<int>(seed);
-      for (const ScreenTriangle& t : lab::adversarial(family, 300, width, contract::kMaxImageSide, seed))
-        for (const auto* coordinates : {t.x_q15, t.y_q15})
-          for (int i = 0; i < 3; ++i)
-            ASSERT_LE(std::abs(coordinates[i]), contract::kGuard_q15) << family << ", seed " << seed;
-    }
-}
-
-TEST(RandomCases, UnknownFamiliesAreRejected) {
-  EXPECT_NE(message_of([] { lab::adversarial("round", 1, 8, 8, 1); }).find("round"), std::string::npos);
-}
-
 Plan plan_of(std::uint64_t seed, std::uint64_t cases) {
   Plan plan;
   plan.backends.assign(backends().begin(), backends().end());

@@ -316,6 +316,8 @@ TEST(Frontend, RefusesInvalidInput) {
   expect_refused([](Scene& s, FrontendOptions&) { s.instances[0].mesh = 1; });
   expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].triangles[0].z = 3; });
   expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].colours.clear(); });
+  for (const int threads : {0, -1, kMaxThreads + 1})
+    EXPECT_THROW(run(loose(kFront), {}, {.threads = threads}), std::invalid_argument);
 }
 
 // ---- Clipped polygons are split into triangles of one winding if such a split exists.

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "edgewise/contract.h"
 #include "edgewise/draw.h"
 #include "edgewise/hash.h"
 #include "hashes/frames.h"
@@ -35,8 +34,8 @@ constexpr const char* kUsage = R"(Usage: edgewise_hashes FILE [--frames N | --al
   --all         draw each frame with every combination, not with one in turn
   --write       first write FILE anew, with the hashes of `naive` in scalar code on one thread. Only a
                 change of the numeric contract, of a scene or of this list of frames may need it
-  --dump FRAME  instead, print each pixel of a frame, its depth, payload and triangle, and the bytes of its
-                file if one is hashed, to compare two machines
+  --dump FRAME  instead, print each pixel of a frame, its depth and payload, and the bytes of its file if one
+                is hashed, to compare two machines
 Exit status: 0 all hashes are those of FILE, 1 one is not, 2 bad input.
 )";
 
@@ -157,29 +156,8 @@ class Painter {
   lab::BackendCache backends_;
 };
 
-// The triangle with this id that gives the pixel its depth, or a note that there is none.
-std::string triangle_at(std::span<const ScreenTriangle> triangles, std::uint32_t id, int x, int y,
-                        std::uint32_t depth) {
-  for (const ScreenTriangle& t : triangles) {
-    if (t.payload != id) continue;
-    const contract::Oriented oriented = contract::orient(t);
-    if (oriented.area == 0 || contract::make_depth(oriented).at(x, y) != depth) continue;
-    std::string text = "triangle " + std::to_string(id) + ":";
-    for (int i = 0; i < 3; ++i)
-      text += " (" + std::to_string(t.x_q15[i]) + ", " + std::to_string(t.y_q15[i]) + ", " +
-              std::to_string(t.z[i]) + ")";
-    return text + " in 2^-15 px and units of depth";
-  }
-  return depth == contract::kDepthClear ? "no triangle" : "no triangle of this depth";
-}
-
-Frame with_ids(Frame frame) {
-  frame.frontend.payload = Payload::id;  // lists of triangles have ids already
-  return frame;
-}
-
-// The first pixel at which the frame is not that of the reference, both values, and both triangles. Empty if
-// the frames are equal.
+// The first pixel at which the frame is not that of the reference, and both values. Empty if the frames are
+// equal.
 std::string difference(Painter& painter, const Frame& frame, const How& how) {
   lab::GuardedFrame drawn = painter.draw(frame, how);
   const Framebuffer expected = painter.draw(frame, kReference).copy();
@@ -190,11 +168,8 @@ std::string difference(Painter& painter, const Frame& frame, const How& how) {
   const int x = found.first_x, y = found.first_y;
   text += "\n  " + std::to_string(found.pixels) + " pixels differ, the first at x " + std::to_string(x) +
           ", y " + std::to_string(y);
-  const Frame ids = with_ids(frame);
   const auto side = [&](const How& by, std::uint32_t depth, std::uint32_t payload) {
-    const std::uint32_t id = painter.draw(ids, by).payload_row(y)[x];
-    text += "\n    " + by.text() + ": depth " + hex(depth, 8) + ", payload " + hex(payload, 8) + ", " +
-            triangle_at(painter.triangles(ids, by), id, x, y, depth);
+    text += "\n    " + by.text() + ": depth " + hex(depth, 8) + ", payload " + hex(payload, 8);
   };
   side(how, drawn.depth_row(y)[x], drawn.payload_row(y)[x]);
   side(kReference, expected.depth_row(y)[x], expected.payload_row(y)[x]);
@@ -307,18 +282,13 @@ void dump(const std::vector<Group>& all, std::string_view name) {
   for (const Group& group : all)
     for (int i = 0; i < group.frames; ++i) {
       if (name != group.name + "/" + std::to_string(i)) continue;
-      const Frame frame = group.frame(i), ids = with_ids(frame);
+      const Frame frame = group.frame(i);
       Painter painter;
       lab::GuardedFrame drawn = painter.draw(frame, kReference);
-      const lab::GuardedFrame visible = painter.draw(ids, kReference);
-      const auto triangles = painter.triangles(ids, kReference);
       for (int y = 0; y < frame.height; ++y)
-        for (int x = 0; x < frame.width; ++x) {
-          const std::uint32_t depth = drawn.depth_row(y)[x];
-          std::printf("%d %d: depth %s, payload %s, %s\n", x, y, hex(depth, 8).c_str(),
-                      hex(drawn.payload_row(y)[x], 8).c_str(),
-                      triangle_at(triangles, visible.payload_row(y)[x], x, y, depth).c_str());
-        }
+        for (int x = 0; x < frame.width; ++x)
+          std::printf("%d %d: depth %s, payload %s\n", x, y, hex(drawn.depth_row(y)[x], 8).c_str(),
+                      hex(drawn.payload_row(y)[x], 8).c_str());
       const std::string file = file_of(frame, drawn.view());
       for (std::size_t at = 0; at < file.size(); ++at) {
         if (at % 16 == 0) std::printf("%sfile, byte %zu:", at == 0 ? "" : "\n", at);

@@ -3,15 +3,13 @@
 // frame, one per cell.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ostream>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "frontend/fixed.h"
-#include "lab/to_stream.h"
 #include "lab/truth/oracle.h"
-#include "properties/pictures.h"
-#include "properties/streams.h"
 #include "support.h"
 
 namespace edgewise::testing {
@@ -72,54 +70,44 @@ std::vector<lab::DrawOptions> all_targets() {
   return ways;
 }
 
-// Reduces triangles that are drawn wrong to those at the first wrong pixel if these alone are drawn wrong
-// too; otherwise keeps all.
-Counterexample narrowed(const std::vector<ScreenTriangle>& triangles, const Framebuffer& wrong, int x, int y,
-                        const Property& property) {
-  std::vector<ScreenTriangle> suspects;
-  const auto at_pixel = static_cast<std::uint32_t>(y / kCellPx * kCellsASide + x / kCellPx);
-  for (const std::uint32_t cell : {at_pixel, wrong.payload_row(y)[x]})
-    if (cell < triangles.size()) suspects.push_back(triangles[cell]);
-  const TriangleStream few = lab::to_stream(suspects, kSidePx, kSidePx);
-  if (!property(few).wrong.empty()) return smallest(shrinkable(few), property);
-  return {property(lab::to_stream(triangles, kSidePx, kSidePx)), 0};
-}
-
-// Stops at the first difference. Counts the triangles drawn, over all backends and executions.
-SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painters,
-                      const std::vector<lab::DrawOptions>& ways) {
-  SearchResult result;
-  Framebuffer expected(kSidePx, kSidePx), actual(kSidePx, kSidePx);
-  std::vector<ScreenTriangle> triangles;
-  for (std::uint64_t first = 0; first < lattice.triangles(); first += triangles.size()) {
-    triangles.clear();
-    for (std::uint64_t i = first; i < std::min(first + kCells, lattice.triangles()); ++i)
-      triangles.push_back(triangle_of(lattice, i, static_cast<std::uint32_t>(i - first)));
-    result.cases += triangles.size();
-    lab::draw_oracle(triangles, expected, kBackground);
-    for (const Painter& painter : painters)
-      for (const lab::DrawOptions& way : ways) {
-        lab::poison(actual);
-        painter.with(way.tiles).draw(triangles, actual.view(), {kBackground}, way.execution);
-        result.comparisons += triangles.size();
-        const auto difference = lab::compare(expected, actual);
-        if (difference.pixels == 0) continue;
-        result.found = narrowed(triangles, actual, difference.first_x, difference.first_y,
-                                like_the_oracles(painters, {way}));
-        return result;
-      }
-  }
-  return result;
+// As a failure's message names it.
+std::string text(const ScreenTriangle& t) {
+  std::string all;
+  for (int i = 0; i < 3; ++i)
+    all += " (" + std::to_string(t.x_q15[i]) + ", " + std::to_string(t.y_q15[i]) + ", " +
+           std::to_string(t.z[i]) + ")";
+  return all;
 }
 
 class EveryTriangle : public ::testing::TestWithParam<Lattice> {};
 
 TEST_P(EveryTriangle, OnTheLatticeMatchesTheOracle) {
-  const SearchResult result = draw_all(GetParam(), painters(backends()), all_targets());
-  RecordProperty("cases", std::to_string(result.cases));
-  RecordProperty("comparisons", std::to_string(result.comparisons));
-  if (result.found) fail(*result.found);
-  EXPECT_EQ(result.cases, GetParam().triangles());
+  const Lattice& lattice = GetParam();
+  const auto ways = all_targets();
+  lab::BackendCache made;
+  Framebuffer expected(kSidePx, kSidePx), actual(kSidePx, kSidePx);
+  std::vector<ScreenTriangle> triangles;
+  std::uint64_t comparisons = 0;
+  for (std::uint64_t first = 0; first < lattice.triangles() && !HasFailure(); first += triangles.size()) {
+    triangles.clear();
+    for (std::uint64_t i = first; i < std::min(first + kCells, lattice.triangles()); ++i)
+      triangles.push_back(triangle_of(lattice, i, static_cast<std::uint32_t>(i - first)));
+    lab::draw_oracle(triangles, expected, kBackground);
+    for (const BackendInfo& info : backends())
+      for (const lab::DrawOptions& way : ways) {
+        lab::poison(actual);
+        made.get(info, way.tiles).draw(triangles, actual.view(), {kBackground}, way.execution);
+        comparisons += triangles.size();
+        const auto wrong = lab::compare(expected, actual);
+        if (wrong.pixels == 0) continue;
+        const auto cell =
+            static_cast<std::size_t>(wrong.first_y / kCellPx * kCellsASide + wrong.first_x / kCellPx);
+        ADD_FAILURE() << info.name << ", " << describe(way) << ": " << difference_text(expected, actual)
+                      << "; the triangle there, in 2^-15 px:" << text(triangles[cell]);
+      }
+  }
+  RecordProperty("cases", std::to_string(lattice.triangles()));
+  RecordProperty("comparisons", std::to_string(comparisons));
 }
 
 std::vector<Lattice> lattices() {

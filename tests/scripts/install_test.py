@@ -23,7 +23,7 @@ PYTHON = BUILD / "python" / "venv" / "bin" / "python"
 FULL = "EDGEWISE_FULL" in os.environ
 # All that lets a compiler round otherwise. -march=native implies -mfma where the processor has it.
 FAST = "-O3 -march=native -ffast-math -ffp-contract=fast".split()
-LABORATORY_PACKAGES = ("GTest", "benchmark", "CLI11", "fmt", "nlohmann_json", "rapidcheck", "SDL2", "OpenGL")
+LABORATORY_PACKAGES = ("GTest", "benchmark", "CLI11", "fmt", "nlohmann_json", "SDL2", "OpenGL")
 
 
 def cached(name):
@@ -75,7 +75,6 @@ class Installed(unittest.TestCase):
 
     def use(self, folder, environment=None):
         """Runs the consumer's programs, which were built in `folder`."""
-        run(folder / "frames", env=environment)
         square = run(folder / "square", env=environment)
         self.assertEqual(run(folder / "square_c", env=environment), square)
         if PYTHON.exists():
@@ -123,8 +122,7 @@ class Installed(unittest.TestCase):
         for package in prefix.rglob("*.pc"):
             self.assertIn("\nLicense: MIT\n", package.read_text())
         for program, source, package in (("consumer", "main", "edgewise-files"), ("picture", "picture", "edgewise-files"),
-                                         ("frames", "frames", "edgewise"), ("square", "square", "edgewise"),
-                                         ("seen", "seen", "edgewise")):
+                                         ("square", "square", "edgewise"), ("seen", "seen", "edgewise")):
             flags = run("pkg-config", "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
             run(compiler, "-std=c++20", CONSUMER / f"{source}.cpp", "-o", build / program, *flags)

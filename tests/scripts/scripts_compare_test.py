@@ -102,8 +102,6 @@ class CompareTest(FolderTest):
         result = self.compare("HEAD", "--filter", "tiled", "--rounds", 20, "--json", out)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("20 rounds, before and after by turns; 3 rows: 1 slower, 1 faster, 1 no significant difference", result.stdout)
-        self.assertIn("Of 3 planted slowdowns of 2 %, 3 would be found.", result.stdout)
-        self.assertIn("The same revision twice was not timed on this machine", result.stdout)
         slower, rest = result.stdout.split("\nSlower\n")[1].split("\nFaster\n")
         faster, same = rest.split("\nNo significant difference\n")
         for text, name in ((slower, "tiled/a/"), (faster, "tiled/b/"), (same, "tiled/c/")):

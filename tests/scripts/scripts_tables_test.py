@@ -13,7 +13,6 @@ from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_lines, speed_table  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import cracks_of, frontier_figures, points_of, speed_ups, wrong_of  # noqa: E402
-from instructions import instructions_sentence, read_counts  # noqa: E402
 from program import BadInput  # noqa: E402
 from python_tables import python_lines, read_python  # noqa: E402
 
@@ -173,20 +172,6 @@ def entry(scene, near="nothing", facing="normal_z", visibility="submission_order
                       question("edge values at 8 subpixel bits", "32-bit integers", needed="32-bit integers")]}
 
 
-class InstructionsTest(FolderTest):
-    def told(self, counts):
-        return instructions_sentence(self.file("instructions.json", json.dumps(counts)))
-
-    def test_the_second_count_of_a_frame_counts(self):
-        counts = read_counts(["9000 cube scalar frontend", "4000 cube scalar frontend", "1000 cube neon frontend", "3000000 cube scalar tiled",
-                              "2000000 cube neon tiled", "9000 cube scalar scanline", "10000 cube neon scanline"])
-        self.assertEqual(self.told(counts), "Instructions of scalar code over those of NEON code: 4.0× in the front end, 0.90× in `scanline`, 1.5× in `tiled`.")
-
-    def test_what_is_not_a_count_is_refused(self):
-        with self.assertRaises(BadInput):
-            self.told({"cube": {"frontend": {"scalar": 1}}})
-
-
 def compared_packages(**peers):
     """One picture; of each peer: its speed-down on both numbers of threads, and how many ids differ."""
     def times(ms):
@@ -194,8 +179,7 @@ def compared_packages(**peers):
 
     return {"commit": "abc", "versions": {"edgewise": "Edgewise", **{peer: f"{peer} 1" for peer in peers}}, "pictures": [
         {"mesh": "hill", "triangles": 2000, "size": [640, 480], "covered": 5000,
-         "peers": {peer: {"differ": differ, "holes": 2, "farthest_px": 0.00212, "ours_hold": 1, "theirs_hold": 3, "distance_p99": 1.23e-7}
-                   for peer, (_, differ) in peers.items()},
+         "peers": {peer: {"differ": differ, "holes": 2, "distance_p99": 1.23e-7} for peer, (_, differ) in peers.items()},
          "ms": {"edgewise": times(2.0), **{peer: times(2.0 * slower) for peer, (slower, _) in peers.items()}}}]}
 
 

@@ -60,9 +60,6 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
                 rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
         for threads in (1, 2):
             rows += entries(f"{backend}+frontend/cube/threads:{threads}", [t / threads for t in times], peak_bytes=20e6)
-            rows += entries(f"{backend}/cube/tiny:256x256/threads:{threads}", [t * 2e-3 for t in times])
-        for mode, factor in (("none", 2), ("back", 1)):
-            rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
         if backend == "tiled":
             rows += entries("naive/cube/threads:1", [9 * t for t in times])
     return {"context": {"backends": "slow tiled", "machine": "test", "rounds": "5", "simd_target": "avx2"}, "benchmarks": rows + cells() + methods()}
@@ -90,14 +87,6 @@ def accuracy():
             "turning_cube": {"frames": 9, "methods": [{"name": name, **{key: {"total": most} for key in ("gaps", "double_hits", "extra", "missing")}}
                                                       for name, most in (("ours", 0), ("float_le", 8))]},
             "motions": [{"name": "knot", "changes": 100, "methods": [{"name": "ours", "superfluous": 1}]}]}
-
-
-def bench_with_normals():
-    """Faces dropped by the z of their normals, which gains half as much, and costs 1,234 pixels."""
-    data = bench()
-    for backend, ms in (("slow", 20.2 / 1.5), ("tiled", 2.8)):
-        data["benchmarks"] += entries(f"{backend}+frontend/cube/cull:normal_z/threads:2", [ms] * 5, wrong_px=1234.0)
-    return data
 
 
 def stability():
@@ -256,15 +245,6 @@ class ScriptsTest(FolderTest):
         self.write("results", coarse)
         self.assertIn("Pictures differ in at most 63 pixels, all not portable.", self.filled("peers"))
 
-    def test_what_the_test_of_normals_gains_is_drawn_beside_culling(self):
-        drawn = []
-        for data in (bench(), bench_with_normals()):
-            plotted(self, self.write("results", data))
-            drawn.append((self.results / "charts/culling.svg").read_text())
-        # Texts are paths; matplotlib keeps them as comments.
-        self.assertNotIn("wrong", drawn[0])
-        self.assertIn("<!-- 1,234 px wrong -->", drawn[1])
-
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_facts()
         self.assertIn("| `float_le` | 10 | 0 | – |", self.filled("seen"))
@@ -346,7 +326,7 @@ class ScriptsTest(FolderTest):
         plotted(self, self.results)
         plotted(self, self.results, "--out", self.folder / "again")
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "culling", "factors", "stability-grid", *(f"errors-{family}" for family in FAMILIES)]
+        charts = ["area", "factors", "stability-grid", *(f"errors-{family}" for family in FAMILIES)]
         self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
         for name in drawn:
             self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
@@ -402,9 +382,6 @@ class ChartsTest(unittest.TestCase):
         from bench_rows import Row
         return Row("", "", False, "", keys, list(times_ms))
 
-    def curve(self, *repetitions):
-        return [(10.0 ** i, self.row(*times), 1.0) for i, times in enumerate(repetitions)]
-
     def test_the_chart_of_factors_tells_where_bands_and_tiles_win(self):
         from factors import Duel
         from plot_factors import title
@@ -440,21 +417,6 @@ class ChartsTest(unittest.TestCase):
         from plot_accuracy import chart_rows
         self.assertEqual([row[:2] for row in chart_rows(parse_accuracy(accuracy()), "facing")],
                          [(label, {"ours": "0", "float_le": "5k"}) for label in ("pooled", "knot", "small")])
-
-    def test_straight_lines_cross_where_they_should(self):
-        from plot_area import crossings
-        falling = self.curve(*[[time] * 5 for time in (1000.0, 100.0, 10.0, 1.0)])
-        level = self.curve(*[[30.0] * 5] * 4)
-        [(x, y)] = crossings(falling, level)
-        self.assertAlmostEqual(x, 1000 / 30, places=6)
-        self.assertAlmostEqual(y, 30.0, places=6)
-
-    def test_noise_is_no_crossing_and_one_draw_decides_nothing(self):
-        from plot_area import crossings
-        noisy = self.curve(*[[8.0, middle, 12.0, 8.0, 12.0] for middle in (10.5, 9.5, 10.5)])
-        level = self.curve(*[[8.5, 10.0, 11.5, 8.5, 11.5]] * 3)
-        self.assertEqual(list(crossings(noisy, level)), [])
-        self.assertEqual(list(crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
 
     def test_the_grid_says_who_holds_in_most_sweeps(self):
         from accuracy_rows import Curve, Method, Sweep
