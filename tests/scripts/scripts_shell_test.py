@@ -101,6 +101,7 @@ class ShellTest(FolderTest):
         self.assert_usage_error(self.run_script("test", "-R", "--no-install"), "-R needs a value")
         self.assert_usage_error(self.run_script("test", "--full", "-R", "a"), "no options of ctest")
         self.assert_usage_error(self.run_script("test", "--everywhere", "-R", "a"), "no options of ctest")
+        self.assert_usage_error(self.run_script("test", "--bare", "--no-install"), "--no-install must stand before --bare")
         self.assert_usage_error(self.run_script("fuzz", "eight"), "'eight'")
         self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
         self.assert_usage_error(self.run_script("compare", "a"), "no such file, and no revision")
