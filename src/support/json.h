@@ -18,8 +18,8 @@ std::string json_text(const Json& json, int indent = -1) {
 
 class JsonOutput {
  public:
-  // "-" is standard output; nothing is written if `path` is empty. Looks at the folder now, so that hours
-  // of work do not end in "cannot be written". Throws as AtomicFile does.
+  // "-" is standard output; nothing is written if `path` is empty. Opens the file now, so that hours of work
+  // do not end in "cannot be written". Throws as AtomicFile does.
   explicit JsonOutput(const std::string& path) : on_stdout_(path == "-") {
     if (!path.empty() && !on_stdout_) file_.emplace(path);
   }

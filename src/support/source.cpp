@@ -6,7 +6,7 @@
 
 #include <cerrno>
 #include <filesystem>
-#include <iterator>
+#include <ostream>
 #include <stdexcept>
 #include <system_error>
 
@@ -31,13 +31,12 @@ Source load_built_in(const std::string& name, const SceneRequest& request, bool 
 // a file in memory, under the same number.
 void keep_content(const std::string& path) {
   if (std::filesystem::is_regular_file(path)) return;
+  FileBuffer kept;
   const InputFile input = open_input(path);
-  const std::string content(std::istreambuf_iterator<char>(*input.stream), {});
-  const int kept = memfd_create("edgewise", MFD_CLOEXEC), descriptor = *descriptor_of(path);
-  int error = kept < 0 ? errno : write_all(kept, content);
-  if (error == 0 && dup2(kept, descriptor) < 0) error = errno;
-  if (kept != descriptor) close(kept);
-  if (error != 0) throw system_error(path, error);
+  kept.attach(memfd_create("edgewise", MFD_CLOEXEC));
+  if (input.size > 0) std::ostream(&kept) << input.stream->rdbuf() << std::flush;
+  if (kept.descriptor() < 0 || kept.error() != 0 || dup2(kept.descriptor(), *descriptor_of(path)) < 0)
+    throw system_error(path, kept.error() != 0 ? kept.error() : errno);
 }
 
 }  // namespace

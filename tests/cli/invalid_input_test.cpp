@@ -28,10 +28,10 @@ namespace {
 
 constexpr int kSkipped = 77;
 
-// `stopped SIGNAL COMMAND…` runs a command until it catches signals, sends the signal a little later, and
-// returns the command's status. `unprivileged COMMAND…` runs a command as a user without root's permissions,
-// or skips the row. Each call uses another user, because process limits count per user. `isolated SCRIPT`
-// runs a script whose mounts end with it, or skips the row.
+// `stopped SIGNAL COMMAND…` runs a command until it has opened a file in $DIR, sends the signal, and returns
+// the command's status. `unprivileged COMMAND…` runs a command as a user without root's permissions, or skips
+// the row. Each call uses another user, because process limits count per user. `isolated SCRIPT` runs a
+// script whose mounts end with it, or skips the row.
 constexpr const char* kWords = R"(
 set -m
 for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # descriptors that ctest leaves open
@@ -44,10 +44,9 @@ stopped() {
   exec 3>&2 2>/dev/null
   program "$@" >/dev/null 2>&3 &
   for ((i = 0; i < 2000; i++)); do
-    ! grep -q '^SigCgt:.*4..7$' /proc/$!/status || break  # HUP, INT, QUIT and TERM
+    [[ $(readlink /proc/$!/fd/*) != *"$DIR/"* ]] || break
     sleep 0.01
   done
-  sleep 0.1
   kill -s "$signal" $!
   wait $!
 }
@@ -162,6 +161,8 @@ TEST_P(InvalidInput, HasTheOutcomeInTheTable) {
   std::vector<std::string> left;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     const std::string name = entry.path().filename();
+    // What a stopped process leaves where the file system has no unnamed files.
+    if (script.find("stopped ") != script.npos && name.starts_with(".edgewise.")) continue;
     left.push_back(name);
     expect_whole(entry.path());
   }

@@ -251,6 +251,11 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "status=$?; cat $IN/older.ppm >&3; exit $status' 3>$DIR/older",
      2, "older.ppm: cannot be replaced in its folder: No space left on device", "older older.ppm"},
 
+    // ---- Without /proc, by which unnamed files get their names
+    {"isolated 'mount -t tmpfs none /proc; \"$EDGEWISE\" render cube -o $DIR/a.png'", 0, "", "a.png"},
+    {"isolated 'mount -t tmpfs none /proc; ulimit -f 4; \"$EDGEWISE\" render torus-knot -o $DIR/a.png'", 2,
+     "a.png: cannot be written: File too large"},
+
     // ---- Output files that cannot be written
     {"edgewise render cube --depth - --format ppm", 2, "--format needs --output: --depth always writes PFM"},
     {"edgewise render cube sphere -o $DIR/a.png", 2, "{scene}"},
@@ -328,18 +333,20 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "out of memory"},
     {"ulimit -u 1; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
 
-    // ---- Signals during the work
+    // ---- Signals after the first file was opened. Unfinished ones have no name.
     {"stopped INT edgewise verify --full --json $DIR/a.json", 130, ""},
     {"stopped TERM edgewise verify --full --json $DIR/a.json", 143, ""},
     {"stopped HUP edgewise verify --full --json $DIR/a.json", 129, ""},
     {"stopped QUIT edgewise verify --full --json $DIR/a.json", 131, ""},
     {"stopped KILL edgewise verify --full --json $DIR/a.json", 137, ""},
-    {"stopped INT edgewise accuracy --json $DIR/a.json", 130, ""},
+    {"stopped INT edgewise accuracy --json $DIR/a.json --pictures $DIR/errors", 130, ""},
     {"stopped INT edgewise stability --json $DIR/a.json", 130, ""},
     // Random pictures are counted until the signal.
     {"stopped INT edgewise verify --random --json $DIR/a.json", 130, "", "a.json"},
     {"stopped INT bench --benchmark_out=$DIR/a.json", 130, ""},
     {"stopped KILL bench --benchmark_out=$DIR/a.json", 137, ""},
+    // Pictures are written one by one: complete ones may be left.
+    {"stopped INT edgewise accuracy edge_on t_junction --pictures $DIR/errors", 130, "", "errors"},
     {"stopped INT edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 130, ""},
     {"stopped INT edgewise capture micro --scale 2 -o $DIR/a.tri", 130, ""},
     {"printf older >$DIR/older.json; stopped KILL edgewise verify --full --json $DIR/older.json", 137, "",
