@@ -123,14 +123,14 @@ program_on() {
   noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-*DeathTest.*'
   noted facts_are_those_of_x86_64 "${run[@]}"
 }
-# Counts the instructions of frames, since times in an emulator say nothing: results/instructions.json.
+# Counts the instructions of frames, since times in an emulator say nothing: instructions.json.
 count_instructions() {
   local build=$platforms/aarch64-library plugin=$platforms/count_instructions.so
   build edgewise_counted_frames
   c++ -std=c++20 -Wall -Wextra -shared -fPIC "$root/tests/platforms/count_instructions.cpp" -o "$plugin"
   qemu-aarch64 -plugin "$plugin" -L /usr/aarch64-linux-gnu "$build/edgewise_counted_frames" |
-    python3 "$root/scripts/reporting/instructions.py" >"$platforms/instructions.json"
-  mv "$platforms/instructions.json" "$root/results/"
+    python3 "$root/scripts/reporting/instructions.py" >"$platforms/instructions.json.part"
+  mv "$platforms/instructions.json"{.part,}
 }
 on_aarch64() {
   library_on aarch64
@@ -167,7 +167,7 @@ on() {
 }
 
 # everywhere PLATFORM…: tests the first, with which others compare, then these, as many at once as there are cores. Writes
-# results/platforms.json. Sets `status` to 1 if one fails.
+# platforms.json. Sets `status` to 1 if one fails.
 everywhere() {
   local platform
   mkdir -p "$platforms"
@@ -185,6 +185,6 @@ everywhere() {
   set -e
   end_step
   for platform; do grep -qs $'\tpassed\t' "$platforms/$platform.result" || status=1; done
-  python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/results.json"
-  mv "$platforms/results.json" "$root/results/platforms.json"
+  python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/platforms.json.part"
+  mv "$platforms/platforms.json"{.part,}
 }

@@ -397,7 +397,7 @@ def same_revision(machine):
     records = sorted((ROOT / "results" / machine).glob("same*.json")) if machine else []
     told = [differing(parsed(path, parse_same, "scripts/compare --json")[0], noise.family) for path in records]
     return f"The same revision twice on this machine: {', '.join(told)} rows changed" if told else \
-        "The same revision twice was not timed on this machine:\n  scripts/compare HEAD HEAD --json results/MACHINE/same.json"
+        "The same revision twice was not timed on this machine:\n  scripts/compare HEAD HEAD --json build/results/MACHINE/same.json"
 
 
 def noise_table(folder):

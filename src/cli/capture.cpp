@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "cli/basic/describe.h"
 #include "cli/commands.h"
-#include "cli/describe.h"
 #include "core/input_file.h"
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "support/console.h"
 #include "support/options.h"
 #include "support/output_path.h"

@@ -12,7 +12,7 @@
 
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
 #include "support/printable.h"

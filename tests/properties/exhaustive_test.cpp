@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frontend/fixed.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "lab/truth/oracle.h"
 #include "properties/pictures.h"
 #include "properties/streams.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "properties/pictures.h"
 #include "support.h"
 

@@ -19,7 +19,7 @@
 #include "frontend/mesh_clusters.h"
 #include "lab/cases/backend_comparison.h"
 #include "lab/cases/random_cases.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "lab/truth/oracle.h"
 #include "support/printable.h"
 #include "support/process.h"

@@ -11,7 +11,7 @@
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
 #include "files/pictures.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 #include "lab/truth/oracle.h"
 
 namespace edgewise::tools {

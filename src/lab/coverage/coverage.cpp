@@ -12,8 +12,8 @@
 #include "core/grid.h"
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
+#include "lab/cases/to_stream.h"
 #include "lab/coverage/draw_in_sets.h"
-#include "lab/to_stream.h"
 
 #ifndef EDGEWISE_MORE_COVERAGE_METHODS
 #define EDGEWISE_MORE_COVERAGE_METHODS(X)

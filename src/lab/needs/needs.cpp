@@ -2,7 +2,7 @@
 
 #include "core/grid.h"
 #include "edgewise/contract.h"
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 
 namespace edgewise::lab {
 

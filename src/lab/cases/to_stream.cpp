@@ -1,4 +1,4 @@
-#include "lab/to_stream.h"
+#include "lab/cases/to_stream.h"
 
 #include <algorithm>
 
