@@ -266,7 +266,8 @@ std::string name_in_rows(const std::string& name_or_path) {
 
 bool in_quick_run(const Row& row) {
   constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "grid4"};
-  if (row.method) return row.method->scene->info().family == lab::Family::coverage;  // of the main chart
+  if (row.method)  // of the main chart
+    return row.method->scene->info().family == lab::Family::coverage && row.execution.threads == 1;
   const std::string_view name = row.name;
   const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
   const std::string_view scene = name.substr(begin, end - begin);

@@ -282,7 +282,8 @@ TEST(BenchMethods, AreTimedOnScenesOfEachFamily) {
   EXPECT_EQ(count["facing edge_on_faces"], static_cast<int>(lab::facing_methods().size()));
   EXPECT_EQ(count["clipping around_the_eye"], static_cast<int>(lab::clipping_methods().size()));
   EXPECT_EQ(quick.size(), 2u) << "only coverage, and not the scene mesh";
-  EXPECT_EQ(quick["coverage torus-knot"], count["coverage torus-knot"]);
+  EXPECT_GE(quick["coverage torus-knot"], static_cast<int>(lab::coverage_methods().size()));
+  EXPECT_LT(quick["coverage torus-knot"], count["coverage torus-knot"]) << "on one thread";
 }
 
 TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
