@@ -228,15 +228,17 @@ std::string name_in_rows(const std::string& name_or_path) {
 }
 
 bool in_quick_run(const Row& row) {
-  constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "medium", "small"};
-  if (row.method) return true;
+  constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "grid4"};
+  if (row.method)  // of the main chart
+    return row.method->scene->info().family == lab::Family::coverage && row.execution.threads == 1;
   const std::string_view name = row.name;
   const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
   const std::string_view scene = name.substr(begin, end - begin);
   const bool built_in = std::any_of(builtin_scenes().begin(), builtin_scenes().end(),
                                     [&](const SceneInfo& info) { return info.name == scene; });
-  const bool plain = name.substr(end).starts_with("/threads:");
-  return (is_cell(row) || plain) && scene.find(':') == std::string_view::npos &&
+  const bool plain_frame = row.timed != Timed::raster && name.substr(end).starts_with("/threads:");
+  return (is_cell(row) ? row.execution.threads == tools::default_threads() : plain_frame) &&
+         scene.find(':') == std::string_view::npos &&
          (!built_in || std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes));
 }
 

@@ -157,7 +157,7 @@ on() {
 }
 
 # everywhere PLATFORM…: tests the first, with which others compare, then these, as many at once as there are cores. Writes
-# results/platforms.json. Sets `status` to 1 if one fails.
+# platforms.json. Sets `status` to 1 if one fails.
 everywhere() {
   local platform
   mkdir -p "$platforms"
@@ -175,6 +175,6 @@ everywhere() {
   set -e
   end_step
   for platform; do grep -qs $'\tpassed\t' "$platforms/$platform.result" || status=1; done
-  python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/results.json"
-  mv "$platforms/results.json" "$root/results/platforms.json"
+  python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/platforms.json.part"
+  mv "$platforms/platforms.json"{.part,}
 }

@@ -51,7 +51,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   auto* peers_flag = parser.add_flag("--peers", flags.suite.all_peers,
                                      "Time all other rasterizers beside the methods; fail if none starts");
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
-  parser.add_flag("--quick", flags.suite.quick, "Fewer scenes and rows, and a time limit for further rounds");
+  parser.add_flag("--quick", flags.suite.quick, "Fewer scenes, rows and rounds");
   parser
       .add_option("--needs", flags.suite.needs,
                   "Also time the pipelines in this file, such as results/facts/needs.json")

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -39,8 +38,6 @@ constexpr double kRepetition_s = 0.012;
 
 // The rounds that time a row. Stopping as soon as a pair is settled would find differences that do not exist.
 constexpr int kRounds = 9, kManyRounds = 36;
-// A quick run begins no round beyond kRounds after this time.
-constexpr double kQuickRounds_s = 180.0;
 
 // A backend's whole frames.
 bool measures_memory(const Row& row) {
@@ -148,7 +145,8 @@ bool is_known(const Row& row) {
 
 int rounds_of(const Row& row, const Flags& flags) {
   if (is_known(row)) return 1;
-  return flags.repetitions.value_or(row.once_s < row.many_rounds_up_to_s ? kManyRounds : kRounds);
+  const bool many = !flags.suite.quick && row.once_s < row.many_rounds_up_to_s;
+  return flags.repetitions.value_or(many ? kManyRounds : kRounds);
 }
 
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
@@ -218,10 +216,7 @@ void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter
   const auto begin = [&](const Row& row) {
     progress.show(std::min(1.0, static_cast<double>(made++) / all), "timing " + row.name);
   };
-  const auto start = std::chrono::steady_clock::now();
   for (int round = 0; round < most_rounds; ++round) {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    if (flags.suite.quick && !flags.repetitions && round >= kRounds && spent.count() > kQuickRounds_s) break;
     benchmark::ClearRegisteredBenchmarks();
     register_rows(rows, stage, flags, round, begin);
     benchmark::RunSpecifiedBenchmarks(&reporter, ".");

@@ -1,4 +1,5 @@
-"""Reads the files of a run: in results/MACHINE bench.json (Google Benchmark's format) and machine.json.
+"""Reads the files of a run, bench.json and machine.json: in build/results/MACHINE bench.json is Google Benchmark's, in results/MACHINE
+it holds of each row only what reports use, as compact() writes it.
 
 A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
 BACKEND+frontend, "cell" for a whole frame of factors.py, "lab" for a method of the laboratory, or "needs" for a pipeline
@@ -12,6 +13,8 @@ import noise
 from program import BadInput, read_json
 
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
+COUNTERS = ("triangles", "width", "height", "covered_px", "overdraw", "peak_bytes", "depth_ties", "wrong_px")
+DIGITS = 5  # of the times in results/: more than any noise, so that no verdict changes
 LABORATORY = "lab"
 
 
@@ -130,28 +133,52 @@ def source_of(path, data):
     return f"`{path.parent.name}`" + (f", commit {commit}" if commit else "")
 
 
+def read_repetitions(entries):
+    """{name: row} of Google Benchmark's entries, one for each repetition."""
+    rows = {}
+    for entry in entries:
+        if entry.get("run_type") == "aggregate":
+            continue
+        name = entry.get("run_name", entry["name"])
+        row = rows.setdefault(name, parse_name(name))
+        if entry.get("error_occurred"):
+            row.error = entry.get("error_message", "error")
+            continue
+        row.times_ms.append(entry["real_time"] * MS[entry["time_unit"]])
+        row.counters |= {key: float(entry[key]) for key in COUNTERS if key in entry}  # later rows say what differs
+    return rows
+
+
+def read_rows(entries):
+    """{name: row} of compact()."""
+    rows = {}
+    for name, entry in entries.items():
+        rows[name] = row = parse_name(name)
+        row.times_ms, row.error = [float(ms) for ms in entry.pop("ms")], entry.pop("error", "")
+        row.counters = {key: float(value) for key, value in entry.items()}
+    return rows
+
+
+def compact(bench):
+    """What read_bench() reads, from its result: the times of all repetitions, since rows are compared round by round."""
+    def rounded(value):
+        return int(value) if value == int(value) else float(f"{value:.{DIGITS}g}")
+
+    return {"context": bench.context,
+            "rows": {name: {"ms": [rounded(ms) for ms in row.times_ms], **({"error": row.error} if row.error else {}),
+                            **{key: rounded(value) for key, value in row.counters.items()}} for name, row in bench.rows.items()}}
+
+
 def read_bench(folder_or_file):
     path = Path(folder_or_file)
     if path.is_dir():
         path = path / "bench.json"
     data = read_json(path)
-    if not isinstance(data, dict) or not isinstance(data.get("benchmarks"), list):
-        raise BadInput(f"{path}: not a Google Benchmark result")
-    rows = {}
     try:
-        for entry in data["benchmarks"]:
-            if entry.get("run_type") == "aggregate":
-                continue
-            name = entry.get("run_name", entry["name"])
-            row = rows.setdefault(name, parse_name(name))
-            if entry.get("error_occurred"):
-                row.error = entry.get("error_message", "error")
-                continue
-            row.times_ms.append(entry["real_time"] * MS[entry["time_unit"]])
-            row.counters |= {key: value for key, value in entry.items() if isinstance(value, float)}  # later rows say what differs
-    except (KeyError, TypeError, AttributeError) as error:
-        raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
-    context = data.get("context", {})
+        rows = read_rows(data["rows"]) if "rows" in data else read_repetitions(data["benchmarks"])
+        context = data.get("context", {})
+    except (KeyError, TypeError, AttributeError, ValueError) as error:
+        raise BadInput(f"{path}: no result of Google Benchmark or of scripts/publish: {error}") from None
     rounds = int(context.get("rounds", 0))  # of most rows; older runs shuffled all repetitions
     for row in rows.values():
         row.rounds = 0 < rounds <= len(row.times_ms)

@@ -14,9 +14,9 @@ GPU = "gpu"  # the peer that has no number of threads
 def scene_facts(bench, scene):
     """Triangles submitted, and overdraw."""
     front = bench.find(f"frontend/{scene}/threads:1")
-    raster = next((row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:1"))), None)
+    frame = next((row for backend in bench.backends if (row := bench.frame(backend, scene, 1))), None)
     triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
-    overdraw = f"{raster.counters['overdraw']:.2f}" if raster else "–"
+    overdraw = f"{frame.counters['overdraw']:.2f}" if frame else "–"
     return triangles, overdraw
 
 

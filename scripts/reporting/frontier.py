@@ -7,6 +7,7 @@ from bench_rows import mean_gained
 from bench_tables import GPU
 from facts_tables import pooled_text
 
+MAIN_CHART = "frontier"  # its file
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
 
 

@@ -1,6 +1,6 @@
 """The main chart: wrong pixels against speed of each coverage method, in scalar code and with SIMD."""
 from accuracy_rows import PEERS
-from frontier import LEAST_CROSSINGS, frontier_figures, points_of, timed_scenes, wrong_of
+from frontier import LEAST_CROSSINGS, MAIN_CHART, frontier_figures, points_of, timed_scenes, wrong_of
 from plot_labels import Label, label_points
 from plot_style import BACKENDS, BLACK, FAINT, INK, PURPLE, SKY, VERMILION, WHISKER, WIDTH_IN, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
 from tables import kernels, number, short
@@ -139,5 +139,5 @@ def frontier(accuracy, bench, folder, caption):
              plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="no crack seen"),
              plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="cracks")]
     legend(figure, top, list(found), extra)
-    save(figure, folder, "frontier", notes)
-    return "frontier"
+    save(figure, folder, MAIN_CHART, notes)
+    return MAIN_CHART

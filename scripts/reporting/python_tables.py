@@ -5,7 +5,7 @@ from tables import by_order, outcome, short
 
 OURS, PEERS = "edgewise", {"vtk": "VTK", "moderngl": "ModernGL"}
 JOBS = {"draw": "a draw", "load": "load and draw"}
-NOT_MEASURED = "No other Python package was measured here; `scripts/run --peers` does."
+NOT_MEASURED = "No other Python package was measured here; `scripts/run --full --peers` does."
 
 
 def parse_python(data):

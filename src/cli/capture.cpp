@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "cli/basic/describe.h"
 #include "cli/commands.h"
-#include "cli/describe.h"
 #include "core/input_file.h"
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "viewer/window.h"
 
@@ -14,6 +15,14 @@ namespace edgewise::tools {
 inline constexpr int kDone = 0, kDiffers = 1, kFailed = 2;  // exit statuses
 
 using Action = std::function<int()>;  // returns the exit status
+
+struct Command {
+  const char *name, *summary;
+  std::function<Action(CLI::App&)> add;
+};
+
+// All, in the order of --help. `show_window` is null if the program was built without SDL.
+std::vector<Command> all_commands(viewer::ShowWindow show_window = nullptr);
 
 Action add_list(CLI::App& command);
 Action add_render(CLI::App& command);

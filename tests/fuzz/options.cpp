@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/run.h"
+#include "cli/basic/run.h"
 #include "fuzz.h"
 #include "support/printable.h"
 
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   try {
-    fuzz::require(tools::parse(static_cast<int>(words.size()), argv.data()) != nullptr,
+    fuzz::require(tools::parse(static_cast<int>(words.size()), argv.data(), tools::all_commands()) != nullptr,
                   "neither an action nor an error");
   } catch (const std::invalid_argument& error) {
     const std::string line = tools::printable(error.what(), ' ');

@@ -1,10 +1,15 @@
 """scripts/publish: what it copies to results/, and what results/ of this repository holds."""
 import json
 import shutil
+import sys
 import unittest
+from itertools import combinations
 
 import scripts_test
 from support import ROOT, SCRIPTS, FolderTest, run
+
+sys.path.insert(0, str(SCRIPTS / "reporting"))
+from bench_rows import order, read_bench  # noqa: E402
 
 README = """<!-- results: results/mine -->
 ![](results/facts/pictures/torus-knot.png)
@@ -48,6 +53,59 @@ class PublishTest(FolderTest):
                                         "facts/pictures/torus-knot.png", "mine/charts/area.svg", "facts/errors/crack.png"})
         self.assertEqual((self.results / "mine/charts/area.svg").read_text(), "new mine/charts/area.svg")
         self.assertIn("results/mine/ and results/facts/: 4 JSON files, and 3 charts and pictures", result.stdout)
+
+    def test_of_a_benchmark_what_reports_use_is_kept(self):
+        data = scripts_test.bench_with_peer()
+        for i, row in enumerate(data["benchmarks"]):
+            row.update(real_time=row["real_time"] * (1 + i * 1e-4 / 3), iterations=12000, p99_ms=1.23456789012345, repetition_index=i)
+        data["benchmarks"] += [{"name": "naive/mesh/threads:1", "error_occurred": True, "error_message": "other pixels"},
+                               {**data["benchmarks"][0], "run_type": "aggregate", "name": "frontend/cube/threads:1_median"}]
+        source, target = self.mine / "bench.json", self.results / "mine/bench.json"
+        source.write_text(json.dumps(data))
+        self.assertEqual(self.publish(self.mine).returncode, 0)
+        self.assertLess(3 * target.stat().st_size, source.stat().st_size)
+        (before, rows), (after, published) = ((bench.context, bench.rows) for bench in map(read_bench, (source, target)))
+        self.assertEqual((after, list(published)), (before, list(rows)))
+        for name, row in rows.items():
+            self.assertEqual((published[name].counters, published[name].error, published[name].rounds), (row.counters, row.error, row.rounds))
+            for ms, kept in zip(row.times_ms, published[name].times_ms, strict=True):
+                self.assertLess(abs(kept / ms - 1), 1e-4)
+        for one, other in combinations([name for name in rows if "cell/cube" in name], 2):
+            self.assertEqual(order(published[one], published[other]), order(rows[one], rows[other]))
+        compared = run(self.folder / "scripts/compare", source, target)
+        self.assertIn(" 0 slower, 0 faster", compared.stdout)
+
+    def test_other_records_keep_their_contents_in_fewer_bytes(self):
+        facts = self.mine.parent / "facts/accuracy.json"
+        facts.write_text(json.dumps(scripts_test.accuracy(), indent=1))
+        self.assertEqual(self.publish(self.mine).returncode, 0)
+        kept = self.results / "facts/accuracy.json"
+        self.assertEqual(json.loads(kept.read_text()), scripts_test.accuracy())
+        self.assertLess(1.4 * kept.stat().st_size, facts.stat().st_size)
+        self.assertGreater(len(kept.read_text().splitlines()), len(scripts_test.accuracy()["scenes"]), "a line for each scene")
+
+    def test_results_of_a_part_of_the_suite_are_refused(self):
+        data = scripts_test.bench()
+        data["context"]["suite"] = "quick"
+        (self.mine / "bench.json").write_text(json.dumps(data))
+        result = self.publish(self.mine)
+        self.assertEqual((result.returncode, self.results.exists()), (2, False))
+        self.assertIn("`scripts/run --full` makes", result.stderr)
+
+    def test_a_page_and_results_of_platforms_come_along(self):
+        for name in ("page/page.html", "platforms/platforms.json", "platforms/instructions.json"):
+            self.file(self.folder / "build" / name, f"new {name}")
+        self.assertEqual(self.publish(self.mine).returncode, 0)
+        self.assertEqual((self.results / "page.html").read_text(), "new page/page.html")
+        self.assertLessEqual({"platforms.json", "instructions.json"}, self.files())
+
+    def test_records_without_a_benchmark_are_added(self):
+        self.assertEqual(self.publish(self.mine).returncode, 0)
+        for file in self.mine.glob("*.json"):
+            file.unlink()
+        self.file(self.mine / "prove.json", "[]")
+        self.assertEqual(self.publish(self.mine).returncode, 0)
+        self.assertLessEqual({"mine/prove.json", "mine/bench.json"}, self.files())
 
     def test_a_picture_that_was_not_drawn_removes_nothing(self):
         self.file(self.results / "mine/charts/area.svg", "old")

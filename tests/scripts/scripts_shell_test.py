@@ -2,9 +2,12 @@
 apt-get."""
 import json
 import os
+import re
 import shutil
+import sys
 import unittest
 
+import scripts_test
 from support import SCRIPTS, FolderTest, run
 
 APT_OFFLINE = """#!/bin/bash
@@ -61,6 +64,27 @@ GTEST_CASES = """<testsuites tests="2"><testsuite name="L">
 z3 is not installed]]></skipped></testcase></testsuite></testsuites>"""
 
 
+# Stands for all programs: writes the files that its options name, and what scripts/run reads.
+PROGRAM = f"""#!{sys.executable}
+import json, os, sys
+from pathlib import Path
+name, command, *options = Path(sys.argv[0]).name, *sys.argv[1:], ""
+with open(os.environ["CALLS"], "a") as calls:
+    print(name, command, file=calls)
+written = {{"verify": %s, "accuracy": %s}}
+for option, value in zip(options, options[1:]):
+    if option in ("--json", "-o") and value.startswith("build") and not Path(value).is_dir():
+        Path(value).write_text(json.dumps(written.get(command)))
+    if option == "--pictures":
+        Path(value).mkdir()
+for option in sys.argv:
+    if option.startswith("--benchmark_out="):
+        Path(option.partition("=")[2]).write_text(%r)
+print({{"list": '{{"scenes": [{{"name": "cube"}}]}}', "demo": '[{{"name": "turn"}}]', "portable": %r,
+       "machine": "mine" if "--name" in options else %r}}.get(command, "{{}}"))
+"""
+
+
 class ShellTest(FolderTest):
     def setUp(self):
         super().setUp()
@@ -97,7 +121,8 @@ class ShellTest(FolderTest):
                              ("summary", "--tables"), ("publish", "--check"), ("plot", "--out"), ("python_peers", "--mesh")):
             wrong = near[:-1] + "_"
             self.assert_usage_error(self.run_script(script, wrong), f"'{wrong}'; did you mean {near}?")
-        self.assert_usage_error(self.run_script("test", "--quick", "--no-install"), "unknown argument '--quick'; --help")
+        for script in ("test", "run"):
+            self.assert_usage_error(self.run_script(script, "--quick", "--no-install"), "unknown argument '--quick'; --help")
         self.assert_usage_error(self.run_script("test", "-R", "--no-install"), "-R needs a value")
         self.assert_usage_error(self.run_script("test", "--full", "-R", "a"), "no options of ctest")
         self.assert_usage_error(self.run_script("test", "--everywhere", "-R", "a"), "no options of ctest")
@@ -130,14 +155,15 @@ class ShellTest(FolderTest):
 
     def test_a_page_that_would_be_another_fails_its_check(self):
         self.file("root/src/web/page.html", "<@PROGRAM@>\n")
-        program, page = self.file("root/build/page/edgewise_page", "1"), self.file("root/results/page.html", "")
+        program, page = self.file("root/build/page/edgewise_page", "1"), self.root / "build/page/page.html"
         self.assertEqual(self.run_script("page").returncode, 0)
-        built = page.read_text()
-        self.assertRegex(built, "^<H4sI[^>]+>\n$")
+        self.assertRegex(page.read_text(), "^<H4sI[^>]+>\n$")
+        committed = self.file("root/results/page.html", page.read_text())
         self.assertEqual(self.run_script("page", "--check").returncode, 0)
         program.write_text("2")
         result = self.run_script("page", "--check")
-        self.assertEqual((result.returncode, page.read_text()), (1, built))
+        self.assertEqual(result.returncode, 1)
+        self.assertNotEqual(committed.read_text(), page.read_text())
         self.assertIn("of other versions of these packages:\ninstalled", result.stdout)
 
     def test_swiftshader_is_unpacked_or_left_out(self):
@@ -196,10 +222,10 @@ class ShellTest(FolderTest):
             on_wrong() { noted echo one; noted bash -c 'echo wrong; exit 3'; noted echo never; }
             on_missing() { false; }
             everywhere wrong missing fine; exit $status'''
-        result = self.library("mkdir $root/results; cd $root;" + platforms)
+        result = self.library("cd $root;" + platforms)
         self.assertEqual(result.returncode, 1, result.stderr)
         found = {"wrong": ("failed", ["one", "wrong"]), "missing": ("failed", ["nothing found"]), "fine": ("passed", ["one", "three"])}
-        written = json.loads((self.root / "results/platforms.json").read_text())
+        written = json.loads((self.root / "build/platforms/platforms.json").read_text())
         self.assertEqual({name: (one["result"], one["found"]) for name, one in written.items()}, found)
         self.assertRegex(result.stdout, r"wrong: failed, \d s after the start of this step; see build/platforms/wrong.log\n")
 
@@ -223,6 +249,50 @@ for a; do [[ $a != Dir::Cache=* ]] || cp {self.folder}/a.deb "${{a#*=}}/archives
         result = unpack("others")
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("dpkg was interrupted", result.stderr)
+
+    def ran(self, *arguments):
+        """The lines of scripts/run with programs that do nothing, and the files that it left outside build/ or changed there."""
+        bench = scripts_test.bench()
+        bench["context"]["suite"] = "full" if "--full" in arguments else "quick"
+        program = self.file("program", PROGRAM % (scripts_test.VERIFY, scripts_test.accuracy(), *map(json.dumps, (bench, scripts_test.portable()[0], scripts_test.MACHINE))))
+        self.tool("cmake", f"""#!/bin/bash
+echo "cmake $*" >>"$CALLS"
+[[ $1 == --build ]] || exit 0
+mkdir -p "$2"
+for program in edgewise edgewise_first edgewise_bench; do cp {program} "$2/$program"; chmod +x "$2/$program"; done
+""")
+        self.file("root/scripts/plot", """import sys
+from pathlib import Path
+folder = Path(sys.argv[sys.argv.index("--out") + 1])
+folder.mkdir()
+(folder / "frontier.svg").write_text(" ".join(sys.argv))
+""")
+        before = self.outside_build()
+        result = self.run_script("run", "--no-install", *arguments)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertEqual(self.outside_build(), before)
+        return result.stdout
+
+    def outside_build(self):
+        return {path: path.stat().st_mtime_ns for path in self.root.rglob("*") if path.is_file() and path.relative_to(self.root).parts[0] != "build"}
+
+    def test_a_run_draws_and_verifies_before_it_builds_the_rest(self):
+        self.file("root/results/facts/accuracy.json", "{}")
+        told = self.ran()
+        calls = [line for line in self.calls.read_text().splitlines() if "-S" not in line]
+        order = [next(i for i, call in enumerate(calls) if re.search(what, call)) for what in
+                 ("cmake .* edgewise_first$", "first render", "first verify", "cmake .* edgewise_bench$", "bench --quick")]
+        self.assertEqual(order, sorted(order))
+        self.assertLess(max(map(len, told.split("\n\n", 1)[1].splitlines())), 81)
+        self.assertIn("\nChart:    build/first-results/mine/charts/frontier.svg\nPictures: build/first-results/facts/pictures\n", told)
+        self.assertIn("--main", (self.root / "build/first-results/mine/charts/frontier.svg").read_text())
+
+    def test_a_full_run_leaves_results_that_can_be_published(self):
+        told = self.ran("--full")
+        results = self.root / "build/results"
+        self.assertIn("\nChart:    build/results/mine/charts/frontier.svg\n", told)
+        self.assertNotIn("--main", (results / "mine/charts/frontier.svg").read_text())
+        self.assertLessEqual({"accuracy", "demos", "needs", "portable", "stability"}, {path.stem for path in (results / "facts").glob("*.json")})
 
     def run_tests(self, cases, *arguments, **environment):
         result = self.run_script("test", *arguments, CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % cases)),

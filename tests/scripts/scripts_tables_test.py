@@ -196,7 +196,7 @@ class PythonTest(FolderTest):
         self.assertEqual(lines[-1], "On 2 threads; `mine`, commit abc. A scene is a mesh at one size.")
 
     def test_nothing_is_said_of_nothing_and_what_is_no_result_is_refused(self):
-        self.assertEqual(python_lines(read_python(self.folder / "results/mine")), "No other Python package was measured here; `scripts/run --peers` does.")
+        self.assertEqual(python_lines(read_python(self.folder / "results/mine")), "No other Python package was measured here; `scripts/run --full --peers` does.")
         for data in ([], {"versions": {}, "pictures": [{}]}, compared_packages(vtk=(1.0, 0)), compared_packages(vtk=(1.0, 0), moderngl=(1.0, -1))):
             with self.assertRaises(BadInput):
                 self.read(data)

@@ -10,9 +10,9 @@ SCRIPTS = ROOT / "scripts"
 os.environ["PYTHONDONTWRITEBYTECODE"] = "1"  # for the scripts that tests start
 
 
-def run(*command, **environment):
+def run(*command, directory=None, **environment):
     """The ended process, with its output."""
-    return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, env={**os.environ, **environment})
+    return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, cwd=directory, env={**os.environ, **environment})
 
 
 class FolderTest(unittest.TestCase):

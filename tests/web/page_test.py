@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Uses results/page.html in Chromium and Firefox, as a reader would. usage: page_test.py FOLDER, for screenshots"""
+"""Uses a page in Chromium and Firefox, as a reader would. usage: page_test.py FOLDER, with page.html; for screenshots, too"""
 import base64
 import contextlib
 import json
@@ -17,8 +17,8 @@ import urllib.request
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "results" / "page.html"
-FOLDER = Path(sys.argv.pop(1))
+FOLDER = Path(sys.argv.pop(1)).resolve()
+PAGE = FOLDER / "page.html"
 WINDOW, PHONE = (1200, 900), (360, 740)  # CSS px
 
 

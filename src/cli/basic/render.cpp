@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/basic/describe.h"
 #include "cli/commands.h"
-#include "cli/describe.h"
 #include "core/nearest_name.h"
 #include "edgewise/contract.h"
 #include "files/pictures.h"

@@ -1,4 +1,4 @@
-#include "cli/describe.h"
+#include "cli/basic/describe.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/run.h"
+#include "cli/basic/run.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/commands.h"
 #include "core/nearest_name.h"
 #include "support/console.h"
 #include "support/options.h"
@@ -52,9 +51,9 @@ std::string why_refused(const CLI::ParseError& error, const CLI::App& program) {
   return error.what();
 }
 
-int guarded(int argc, char** argv, viewer::ShowWindow show_window) {
+int guarded(int argc, char** argv, std::span<const Command> commands) {
   try {
-    return parse(argc, argv, show_window)();
+    return parse(argc, argv, commands)();
   } catch (const std::exception& error) {
     print_error(reason_of(error));
   }
@@ -63,29 +62,16 @@ int guarded(int argc, char** argv, viewer::ShowWindow show_window) {
 
 }  // namespace
 
-Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
+Action parse(int argc, char** argv, std::span<const Command> commands) {
   CLI::App program("A laboratory for triangle rasterization on the CPU.", "edgewise");
   program.set_version_flag("--version", "edgewise " EDGEWISE_VERSION);
   program.require_subcommand(1);
   program.footer(kProgramFooter);
   Action action;
-  const auto add = [&](const char* name, const char* summary, const auto& add_options, auto... window) {
-    CLI::App& command = *program.add_subcommand(name, summary);
-    command.callback([&action, chosen = add_options(command, window...)] { action = chosen; });
-  };
-  add("list", "List all scenes, backends, SIMD targets and culling modes", add_list);
-  add("render", "Draw scenes into pictures and depth files", add_render);
-  add("hash", "Print one number per picture that is the same on every machine", add_hash);
-  add("verify", "Check that all backends write the same bits", add_verify);
-  add("accuracy", "Count each method's errors", add_accuracy);
-  add("stability", "Find where each method starts to fail", add_stability);
-  add("diff", "Compare two pictures, or two depth files", add_diff);
-  add("portable", "Find the pixels that conformant rasterizers may draw differently", add_portable);
-  add("needs", "Find the least precise pipeline that draws a scene right", add_needs);
-  add("capture", "Write a scene's screen triangles as a .tri stream", add_capture);
-  add("view", "Explore a scene: move, switch methods, see errors", add_view, show_window);
-  add("demo", "Show the tutorials that Edgewise grew from", add_demo, show_window);
-  add("machine", "Describe this machine and build as JSON, as result files do", add_machine);
+  for (const Command& command : commands) {
+    CLI::App& added = *program.add_subcommand(command.name, command.summary);
+    added.callback([&action, chosen = command.add(added)] { action = chosen; });
+  }
   if (argc < 2) throw std::invalid_argument("no command given; try edgewise --help");
   check_first_word(program, argv[1]);
 
@@ -103,9 +89,9 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   return action;
 }
 
-int run(int argc, char** argv, viewer::ShowWindow show_window) {
+int run(int argc, char** argv, std::span<const Command> commands) {
   prepare_process("edgewise");
-  const int status = guarded(argc, argv, show_window);
+  const int status = guarded(argc, argv, commands);
   if (stdout_is_whole() || status == kFailed) return status;
   print_error("cannot write to standard output");
   return kFailed;
