@@ -5,7 +5,6 @@
 
 #include "cli/accuracy/score.h"
 #include "core/nearest_name.h"
-#include "lab/engine/engine.h"
 #include "lab/peers/peer.h"
 #include "support/console.h"
 #include "support/options.h"
@@ -103,6 +102,8 @@ class Run {
       throw std::invalid_argument("nothing to do: no selected method belongs to a selected scene's family");
     for (const lab::LabScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
     if (chosen_.turning_cube) total_s_ += kCube_s + kMotions_s;
+    choices_ = plan.scenes.empty() && !methods_.coverage.empty();
+    if (choices_) total_s_ += kChoices_s;
   }
 
   AccuracyReport go() {
@@ -120,7 +121,9 @@ class Run {
           judge_turning_cube(plan_, in_cube_, progress(std::string(kTurningCube), kCube_s), report.closeups);
       done_s_ += kCube_s;
       report.motions = judge_motions(plan_, in_cube_, progress("motion", kMotions_s));
+      done_s_ += kMotions_s;
     }
+    if (choices_) report.choices = judge_choices(plan_, methods_, progress("choice", kChoices_s));
     return report;
   }
 
@@ -132,9 +135,11 @@ class Run {
   }
 
   const AccuracyPlan& plan_;
-  const double kCube_s = plan_.quick ? 1.5 : 45.0, kMotions_s = plan_.quick ? 2.0 : 8.0;
+  const double kCube_s = plan_.quick ? 1.5 : 45.0, kMotions_s = plan_.quick ? 2.0 : 8.0,
+               kChoices_s = plan_.quick ? 2.0 : 60.0;
   ChosenMethods methods_, in_cube_;
   AccuracyScenes chosen_;
+  bool choices_ = false;
   double done_s_ = 0.0, total_s_ = 0.0;
 };
 
@@ -168,8 +173,6 @@ ChosenMethods methods_of(const AccuracyPlan& plan) {
     return chosen;
   }
   choose(plan, Family::coverage, lab::coverage_methods(), chosen.coverage);
-  // The engine's other numbers are made for positions of 8 bits.
-  if (plan.subpixel_bits == 8) choose(plan, Family::coverage, lab::engine_methods(), chosen.coverage);
   choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -105,10 +106,23 @@ struct MotionResult {
   std::vector<std::pair<std::string, std::uint64_t>> superfluous;  // of each method
 };
 
+// Of all frames of a lab::ChoiceScene: wrong pixels in the best and the worst one, and the sums.
+struct ChoiceTotal {
+  std::uint64_t least = std::numeric_limits<std::uint64_t>::max(), most = 0, wrong = 0, holes = 0;
+};
+struct ChoiceResult {
+  std::string_view name, summary;
+  lab::Size size;
+  int frames;
+  std::vector<std::pair<std::string, ChoiceTotal>> methods = {};
+  std::optional<ChoiceTotal> float_projection = {};  // see lab::ChoiceJudge
+};
+
 struct AccuracyReport {
   std::vector<SceneResult> scenes;
   std::optional<CubeResult> turning_cube;
   std::vector<MotionResult> motions;  // with the turning cube
+  std::vector<ChoiceResult> choices;  // with the default scenes
   std::vector<Closeup> closeups;      // empty unless the plan has `pictures`
 
   bool ok() const;  // whether every method kept the promises that hold on every scene
