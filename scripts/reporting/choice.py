@@ -5,8 +5,8 @@ from bench_rows import Row
 from tables import milliseconds, number
 
 # How charts and tables name the methods, in their order.
-TITLES = {"float_lt": "floats, strict", "float_le": "floats, loose", "float_top_left": "floats, top-left", "double_top_left": "doubles, top-left",
-          "fixed_4": "fixed, 4 bits", "tiled_8": "tiled, 8 bits", "tiled_12": "tiled, 12 bits", "tiled_15": "tiled, 15 bits", "llvmpipe": "llvmpipe",
+TITLES = {"float_lt": "strict <", "float_le": "loose ≤", "float_top_left": "float top-left", "double_top_left": "double top-left",
+          "fixed_4": "fixed 4 bits", "tiled_8": "tiled, 8 bits", "tiled_12": "tiled, 12 bits", "tiled_15": "tiled, 15 bits", "llvmpipe": "llvmpipe",
           "swiftshader": "SwiftShader"}
 OURS = "tiled_"
 

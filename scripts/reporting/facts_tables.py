@@ -28,8 +28,8 @@ def method_times(accuracy):
     def cell(measured):
         return " / ".join(milliseconds(row) for row in (measured.scalar, measured.simd)) if measured else "–"
 
-    return (["method", *(f"`{scene.name}`" for scene in scenes)],
-            [[f"`{method.name}`", *(cell(scene.of(method.name)) for scene in scenes)] for method in accuracy.methods["coverage"]] if scenes else [])
+    timed = [method for method in accuracy.methods["coverage"] if any((m := scene.of(method.name)) and m.forms for scene in scenes)]
+    return ["method", *(f"`{scene.name}`" for scene in scenes)], [[f"`{method.name}`", *(cell(scene.of(method.name)) for scene in scenes)] for method in timed]
 
 
 def total_text(counts):

@@ -124,7 +124,7 @@ class ChoiceTest(unittest.TestCase):
         panels = parse_choices([self.panel("a", tiled_8=(6, 0, 3, 0), float_lt=(8, 1, 4, 2)), self.panel("b", tiled_8=(0, 0, 0, 0))])
         timed = self.timed(**{"a/method:float_lt": 20.0, "a/method:tiled_8": 1.0, "b/method:tiled_8": 0.5})
         self.assertEqual(choice_table(Accuracy({}, (), None, choices=panels), timed),
-                         (["method", "`a`", "`b`"], [["floats, strict", "**2 px**, 20.0 ms", "–"], ["tiled, 8 bits", "1.5 px, 1.00 ms", "0 px, 0.500 ms"]]))
+                         (["method", "`a`", "`b`"], [["strict <", "**2 px**, 20.0 ms", "–"], ["tiled, 8 bits", "1.5 px, 1.00 ms", "0 px, 0.500 ms"]]))
 
     def test_methods_have_a_table_of_their_times(self):
         rows = bench({"x": 4.0, "y": 2.0}).rows

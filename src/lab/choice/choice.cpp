@@ -43,7 +43,7 @@ std::vector<ChoiceScene> choice_scenes(bool quick) {
   };
   return {{"torus-knot", "Mesh: torus-knot, 49,152 triangles, turning", size, frames,
            [=](int frame) { return built_in("torus-knot", 1.0, static_cast<float>(frame) / 60.0f); }},
-          {"quads", "User interface: squares, corners on pixel centres, moving by pixels", size, frames,
+          {"quads", "User interface: corners on pixel centres, whole-pixel steps", size, frames,
            [=](int frame) {
              const float at_px = 0.5f + static_cast<float>(frame);
              return moved(built_in("quads", 1.0, 0.0f), at_px, at_px);
