@@ -99,7 +99,7 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
 }
 
 TEST(Accuracy, CountsTheFramesOfTheChartForChoosing) {
-  const json report = json_of("--quick --family coverage --method tiled,float_lt");
+  const json report = json_of("choice --quick --method tiled,float_lt");
   ASSERT_EQ(report.at("choices").size(), 4u);
   for (const json& choice : report.at("choices")) {
     EXPECT_EQ(choice.at("frames"), 6);

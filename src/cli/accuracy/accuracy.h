@@ -122,8 +122,8 @@ struct AccuracyReport {
   std::vector<SceneResult> scenes;
   std::optional<CubeResult> turning_cube;
   std::vector<MotionResult> motions;  // with the turning cube
-  std::vector<ChoiceResult> choices;  // with the default scenes
-  std::vector<Closeup> closeups;      // empty unless the plan has `pictures`
+  std::vector<ChoiceResult> choices;
+  std::vector<Closeup> closeups;  // empty unless the plan has `pictures`
 
   bool ok() const;  // whether every method kept the promises that hold on every scene
 };
@@ -138,12 +138,13 @@ std::string accuracy_tables(const AccuracyReport& report);
 
 nlohmann::json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan);
 
-inline constexpr std::string_view kTurningCube = "turning-cube";
+inline constexpr std::string_view kTurningCube = "turning-cube", kChoice = "choice";
 
-// The scenes that the plan names, family by family, and whether it includes the rotating cube.
+// The scenes that the plan names, family by family, and whether it includes the rotating cube, and the frames
+// of the chart for choosing a method.
 struct AccuracyScenes {
   std::vector<lab::LabScene> scenes;
-  bool turning_cube = false;
+  bool turning_cube = false, choice = false;
 };
 AccuracyScenes scenes_of(const AccuracyPlan& plan);
 
