@@ -90,26 +90,24 @@ ChoiceJudge::ChoiceJudge(const Drawable& drawable, Size size, int threads)
   if (const auto* scene = std::get_if<Scene>(&drawable)) {
     auto truth = std::make_unique<SceneTruth>(*scene, size, options_of(drawable, 0, 0).cull);
     exact_ = truth->visible_triangles(window, threads);
-    floats_ = outlines_of(*truth);
     source_ = std::move(truth);
   } else {
     floats_ = float_triangles(std::get<TriangleStream>(drawable));
     exact_ = exact_visible_triangles(std::span<const FloatTriangle>(floats_), window, threads);
     source_ = std::make_unique<FloatSource>(floats_);
   }
-  surface_.emplace(floats_);
 }
 
 bool ChoiceJudge::is_hole(int x, int y, std::uint32_t shown) const {
   const std::uint32_t lost = exact(x, y);
-  if (lost == kNoTriangle || surface_->across(lost, surface_->nearest_edge(lost, x, y)) == kNoTriangle)
-    return false;
+  if (lost == kNoTriangle) return false;
+  const auto touching = [&](std::uint32_t a, std::uint32_t b) {
+    return a == b ||
+           (a != kNoTriangle && b != kNoTriangle && touch(source_->outline(a), source_->outline(b)));
+  };
   for (int py = std::max(0, y - 1); py < std::min(size_.height, y + 2); ++py)
     for (int px = std::max(0, x - 1); px < std::min(size_.width, x + 2); ++px)
-      if (const std::uint32_t near = exact(px, py);
-          near == shown || (near != kNoTriangle && shown != kNoTriangle &&
-                            touch(source_->outline(near), source_->outline(shown))))
-        return false;
+      if (!touching(exact(px, py), lost) || touching(exact(px, py), shown)) return false;
   return true;
 }
 

@@ -52,8 +52,8 @@ class FrameDrawer {
 
 struct ChoiceCounts {
   std::uint64_t wrong = 0;  // pixels that show another triangle than the exact picture
-  // Of these, the ones inside a surface: the nearest edge of the exact picture's triangle is shared, and what
-  // is shown instead appears in none of the nine exact pixels around, nor a triangle that touches it.
+  // Of these, the ones inside a surface: all nine exact pixels around show the same triangle or one that
+  // touches it, and what is drawn touches none of these.
   std::uint64_t holes = 0;
 };
 
@@ -76,10 +76,9 @@ class ChoiceJudge {
 
   const Drawable& drawable_;  // must outlive it
   Size size_;
-  std::vector<FloatTriangle> floats_;  // of a stream; of a scene, the outlines
+  std::vector<FloatTriangle> floats_;  // of a stream
   std::unique_ptr<const SourceTruth> source_;
   VisibleTriangles exact_;
-  std::optional<Surface> surface_;
 };
 
 }  // namespace edgewise::lab

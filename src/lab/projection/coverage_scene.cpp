@@ -17,19 +17,4 @@ CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options) 
   return result;
 }
 
-std::vector<FloatTriangle> outlines_of(const SceneTruth& truth) {
-  std::vector<FloatTriangle> outlines;
-  for (std::uint32_t i = 0; i < truth.size(); ++i) {
-    const auto apart = -1.0f - static_cast<float>(i);
-    FloatTriangle& t = outlines.emplace_back(
-        FloatTriangle{{{apart, apart, apart}, {apart, apart, apart}, {apart, apart, apart}}, i});
-    const auto corners = truth.outline(i);
-    for (std::size_t k = 0; k < 3 && corners.size() == 3; ++k) {
-      t.at.x_px[k] = static_cast<float>(corners[k].x), t.at.y_px[k] = static_cast<float>(corners[k].y);
-      t.at.z01[k] = static_cast<float>(corners[k].z);
-    }
-  }
-  return outlines;
-}
-
 }  // namespace edgewise::lab

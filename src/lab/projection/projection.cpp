@@ -46,7 +46,17 @@ std::vector<Run> ProjectionJudge::runs_of(std::span<const ProjectedTriangle> tri
 
 const Surface& ProjectionJudge::surface() const {
   std::call_once(surface_once_, [&] {
-    outlines_ = outlines_of(truth_);
+    for (std::uint32_t i = 0; i < truth_.size(); ++i) {
+      // Without three corners: a point that no other triangle has.
+      const auto apart = -1.0f - static_cast<float>(i);
+      FloatTriangle& t = outlines_.emplace_back(
+          FloatTriangle{{{apart, apart, apart}, {apart, apart, apart}, {apart, apart, apart}}, i});
+      const auto corners = truth_.outline(i);
+      for (std::size_t k = 0; k < 3 && corners.size() == 3; ++k) {
+        t.at.x_px[k] = static_cast<float>(corners[k].x), t.at.y_px[k] = static_cast<float>(corners[k].y);
+        t.at.z01[k] = static_cast<float>(corners[k].z);
+      }
+    }
     surface_.emplace(outlines_);
   });
   return *surface_;

@@ -113,8 +113,4 @@ class SceneTruth final : public SourceTruth {
   std::unique_ptr<Exact[]> exact_of_;  // by triangle, found when an estimate leaves a sign open
 };
 
-// The outlines of its triangles, rounded to float. Those without three corners are points that no other one
-// has.
-std::vector<FloatTriangle> outlines_of(const SceneTruth& truth);
-
 }  // namespace edgewise::lab
