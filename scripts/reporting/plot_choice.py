@@ -92,7 +92,7 @@ def choice(accuracy, bench, folder, caption):
     height = above + below + rows * (PANEL_IN + GAP_IN)
     figure, grid = plt.subplots(rows, 2, squeeze=False, figsize=(WIDTH_IN, height))
     headline(figure, choice_title([points for _, points in found]), subtitle)
-    figure.subplots_adjust(left=0.075, right=0.99, bottom=below / height, top=1 - (above + 0.45) / height, wspace=0.14, hspace=GAP_IN / PANEL_IN)
+    figure.subplots_adjust(left=0.09, right=0.99, bottom=below / height, top=1 - (above + 0.45) / height, wspace=0.17, hspace=GAP_IN / PANEL_IN)
     for axes, (panel, points) in zip(grid.flat, found):
         draw_panel(axes, panel, points)
     for axes in grid.flat[len(found):]:
