@@ -6,10 +6,12 @@
 #include <optional>
 #include <string>
 
+#include "bench/workloads/choice.h"
 #include "bench/workloads/methods.h"
 #include "bench/workloads/pipelines.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
+#include "lab/peers/peer.h"
 
 namespace edgewise::bench {
 
@@ -25,14 +27,15 @@ inline constexpr double kTooSlowToRepeat_s = 0.3;
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
 struct Row {
-  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell, lab
-  // or needs
+  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell,
+  // lab, needs or choice
   std::string name;
-  std::shared_ptr<Workload> workload;    // null for methods and pipelines
-  std::optional<MethodDraw> method;      // of the laboratory, a peer's included
+  std::shared_ptr<Workload> workload;    // null for methods, pipelines and choices
+  std::optional<MethodDraw> method;      // of the laboratory
   std::optional<PipelineDraw> pipeline;  // of the laboratory
+  std::optional<ChoiceDraw> choice;      // of the laboratory; peers' have a workload
   Timed timed = Timed::raster;
-  const BackendInfo* backend = nullptr;  // null for front end rows, peers, methods and pipelines
+  const BackendInfo* backend = nullptr;  // null for front end rows, peers and rows without a workload
   const lab::PeerInfo* peer = nullptr;
   std::string peer_version;   // empty: it did not start
   bool device_clock = false;  // a peer's frame by its device's clock
@@ -50,6 +53,11 @@ struct Row {
 // One of the frames that differ in one factor at a time.
 inline bool is_cell(const Row& row) {
   return row.name.starts_with("cell/");
+}
+
+// A frame of the chart for choosing a method.
+inline bool is_choice(const Row& row) {
+  return row.name.starts_with("choice/");
 }
 
 // Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target.

@@ -20,8 +20,6 @@ constexpr int kThreads[] = {1, 2};  // of all rows but a scene's frames, which m
 // The backends whose whole frames are repeated as often as cells are, if they are short.
 constexpr std::string_view kCompared[] = {"scanline", "tiled"};
 constexpr double kShortFrame_s = 0.05;
-// The methods that show what exactness costs are repeated as often as cells are.
-constexpr std::string_view kPriced[] = {"float_top_left", "fixed_8", "double_top_left"};
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
@@ -123,18 +121,46 @@ class Suite {
   }
 
   void add_methods(const lab::LabScene& scene) {
-    const auto peers = options_.all_peers ? lab::peers() : std::span<const lab::PeerInfo>();
-    for (MethodDraw& draw : method_draws(scene, peers)) {
+    for (MethodDraw& draw : method_draws(scene)) {
       Row row;
       row.name =
           fmt::format("lab/{}/family:{}/method:{}/simd:{}/threads:{}", scene.name, name_of(scene.family),
                       draw.name(), name_of(draw.execution.target), draw.execution.threads);
-      if (const auto* peer = std::get_if<const lab::PeerInfo*>(&draw.method)) row.peer = *peer;
       row.execution = draw.execution;
-      if (std::find(std::begin(kPriced), std::end(kPriced), draw.name()) != std::end(kPriced))
-        row.many_rounds_up_to_s = kTooSlowToRepeat_s;
       row.method = std::move(draw);
       rows_.push_back(std::move(row));
+    }
+  }
+
+  // Of our methods and of peers, on one thread.
+  void add_choices(const lab::ChoiceScene& scene) {
+    const auto frame = std::make_shared<ChoiceFrame>(ChoiceFrame{scene, {}, {}});
+    std::vector<const lab::CoverageMethod*> methods;
+    for (const auto& method : lab::coverage_methods()) methods.push_back(&method);
+    const auto add_row = [&](Row row, std::string_view method) {
+      row.name = fmt::format("choice/{}/method:{}/threads:1", scene.name, method);
+      row.many_rounds_up_to_s = kTooSlowToRepeat_s;
+      rows_.push_back(std::move(row));
+    };
+    for (const lab::ChoiceMethod& method : lab::choice_methods(methods)) {
+      Row row;
+      row.choice = ChoiceDraw{frame, method};
+      add_row(std::move(row), method.name);
+    }
+    if (!options_.peers) return;
+    const auto workload =
+        std::make_shared<Workload>(scene.size.width, scene.size.height, Cull::back, [scene] {
+          Drawable drawable = scene.make(0);
+          const bool stream = std::holds_alternative<TriangleStream>(drawable);
+          return tools::Source{std::string(scene.name), std::move(drawable), stream};
+        });
+    for (const auto& peer : lab::benchmark_peers()) {
+      if (peer.own_clock) continue;  // a GPU
+      Row row;
+      row.workload = workload;
+      row.timed = Timed::frame;
+      row.peer = &peer;
+      add_row(std::move(row), peer.name);
     }
   }
 
@@ -229,8 +255,7 @@ std::string name_in_rows(const std::string& name_or_path) {
 
 bool in_quick_run(const Row& row) {
   constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "grid4"};
-  if (row.method)  // of the main chart
-    return row.method->scene->info().family == lab::Family::coverage && row.execution.threads == 1;
+  if (row.method || is_choice(row)) return is_choice(row);
   const std::string_view name = row.name;
   const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
   const std::string_view scene = name.substr(begin, end - begin);
@@ -295,6 +320,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   suite.add_area_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
     if (scene.timed) suite.add_methods(scene);
+  for (const lab::ChoiceScene& scene : lab::choice_scenes(options.quick)) suite.add_choices(scene);
   if (!options.needs.empty()) suite.add_pipelines(options.needs);
   std::vector<Row> rows = suite.take();
   if (options.quick) std::erase_if(rows, [](const Row& row) { return !in_quick_run(row); });

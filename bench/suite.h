@@ -23,10 +23,9 @@ struct SuiteOptions {
   std::vector<std::string> more_scenes;             // beside the whole suite
   std::set<int> threads = default_thread_counts();  // of whole frames and their parts
   bool fit = false;                                 // for meshes in `scenes` and `more_scenes`
-  std::string needs;       // a file whose pipelines are timed beside the exact one; empty: none
-  bool methods = false;    // of the laboratory, on `scenes`; the whole suite has them anyway
-  bool peers = true;       // those in the suite, if built
-  bool all_peers = false;  // beside the methods, too
+  std::string needs;     // a file whose pipelines are timed beside the exact one; empty: none
+  bool methods = false;  // of the laboratory, on `scenes`; the whole suite has them anyway
+  bool peers = true;     // those in the suite, if built
 };
 
 // A scene's name in row names, where ':' and '/' are separators: see tools::source_name().

@@ -48,8 +48,8 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   parser.add_flag("--methods", flags.suite.methods, "Also time the laboratory's methods on --scene")
       ->needs("--scene");
   bool no_peers = false;
-  auto* peers_flag = parser.add_flag("--peers", flags.suite.all_peers,
-                                     "Time all other rasterizers beside the methods; fail if none starts");
+  auto* peers_flag =
+      parser.add_flag("--peers", flags.need_peers, "Fail if none of other projects' rasterizers starts");
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
   parser.add_flag("--quick", flags.suite.quick, "Fewer scenes, rows and rounds");
   parser

@@ -11,6 +11,7 @@ namespace edgewise::bench {
 
 struct Flags {
   SuiteOptions suite;
+  bool need_peers = false;             // fail if none starts
   std::string out;                     // --benchmark_out
   std::vector<std::string> benchmark;  // the remaining options, for Google Benchmark
   std::vector<std::string> known;      // the names of all options, Google Benchmark's included

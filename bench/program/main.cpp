@@ -86,7 +86,7 @@ std::optional<std::vector<Row>> select(std::vector<Row> suite) {
 void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
   const bool some = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.peer != nullptr; });
   if (!some && !need_peers) return;
-  const lab::StartedPeers started = lab::start_peers(need_peers ? lab::peers() : lab::benchmark_peers());
+  const lab::StartedPeers started = lab::start_peers(lab::benchmark_peers());
   if (need_peers) started.require_one();
   for (const auto& [peer, version] : started.peers)
     benchmark::AddCustomContext(std::string(peer->name), version);
@@ -275,7 +275,7 @@ int run(int argc, char** argv) {
   if (selected->empty()) return 0;
   std::vector<Row>& rows = *selected;
 
-  leave_out_missing_peers(rows, flags.suite.all_peers);
+  leave_out_missing_peers(rows, flags.need_peers);
   if (rows.empty()) return 2;
   Stage stage;
   compare_all(rows, stage, flags.suite.scenes.empty());

@@ -1,7 +1,5 @@
 #include "bench/workloads/methods.h"
 
-#include "lab/engine/engine.h"
-
 namespace edgewise::bench {
 
 namespace {
@@ -10,7 +8,6 @@ constexpr Execution kPlainest{.threads = 1, .target = SimdTarget::scalar};
 
 std::vector<Execution> forms_of(const lab::CoverageMethod& method) {
   const SimdTarget best = resolve(SimdTarget::best);
-  if (method.engine) return {{.threads = 1, .target = best}};
   std::vector<SimdTarget> targets{SimdTarget::scalar};
   if (method.simd && best != SimdTarget::scalar) targets.push_back(best);
   std::vector<Execution> list;
@@ -56,9 +53,7 @@ std::size_t MethodScene::triangles() const {
 }
 
 std::string_view MethodDraw::name() const {
-  return std::visit(Overloaded{[](const lab::PeerInfo* peer) { return peer->name; },
-                               [](const auto* of) { return of->info.name; }},
-                    method);
+  return std::visit([](const auto* of) { return of->info.name; }, method);
 }
 
 std::function<void()> MethodDraw::prepare(std::string& error) const {
@@ -75,14 +70,8 @@ std::function<void()> MethodDraw::prepare(std::string& error) const {
     }
     return [&at, of, input, how = execution] { of->draw(input, *at.canvas, how); };
   };
-  const auto peer = [&](const lab::PeerInfo* of) -> std::function<void()> {
-    const auto& s = std::get<lab::CoverageScene>(at.scene());
-    return [loaded = std::shared_ptr(of->load(peer_scene(s.floats, s.window(), 0), execution.threads))] {
-      loaded->draw();
-    };
-  };
   return std::visit(
-      Overloaded{coverage, peer,
+      Overloaded{coverage,
                  [&](const lab::VisibilityMethod* of) -> std::function<void()> {
                    return [&at, of] { of->draw(std::get<lab::VisibilityScene>(at.scene()), at.visible); };
                  },
@@ -95,7 +84,7 @@ std::function<void()> MethodDraw::prepare(std::string& error) const {
       method);
 }
 
-std::vector<MethodDraw> method_draws(lab::LabScene info, std::span<const lab::PeerInfo> peers) {
+std::vector<MethodDraw> method_draws(lab::LabScene info) {
   const auto scene = std::make_shared<MethodScene>(std::move(info));
   std::vector<MethodDraw> draws;
   const auto add_all = [&](const auto& methods) {
@@ -103,12 +92,8 @@ std::vector<MethodDraw> method_draws(lab::LabScene info, std::span<const lab::Pe
   };
   switch (scene->info().family) {
     case lab::Family::coverage:
-      for (const auto& methods : {lab::coverage_methods(), lab::engine_methods()})
-        for (const lab::CoverageMethod& method : methods)
-          for (const Execution& form : forms_of(method)) draws.push_back({scene, &method, form});
-      for (const lab::PeerInfo& peer : peers)
-        for (int threads = 1; threads <= peer.most_threads; ++threads)
-          draws.push_back({scene, &peer, {.threads = threads, .target = SimdTarget::scalar}});
+      for (const lab::CoverageMethod& method : lab::coverage_methods())
+        for (const Execution& form : forms_of(method)) draws.push_back({scene, &method, form});
       break;
     case lab::Family::visibility:
       add_all(lab::visibility_methods());

@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "lab/peers/peer.h"
 #include "lab/scenes.h"
 
 namespace edgewise::bench {
@@ -42,7 +41,7 @@ class MethodScene {
 struct MethodDraw {
   std::shared_ptr<MethodScene> scene;
   std::variant<const lab::CoverageMethod*, const lab::VisibilityMethod*, const lab::FacingMethod*,
-               const lab::ClippingMethod*, const lab::PeerInfo*>
+               const lab::ClippingMethod*>
       method;
   Execution execution;
 
@@ -53,7 +52,7 @@ struct MethodDraw {
 };
 
 // All forms of the methods of the scene's family: scalar and with the widest SIMD target, on one thread and
-// on two, where they have these; the engine with SIMD on one thread. `peers` are coverage methods.
-std::vector<MethodDraw> method_draws(lab::LabScene scene, std::span<const lab::PeerInfo> peers);
+// on two, where they have these.
+std::vector<MethodDraw> method_draws(lab::LabScene scene);
 
 }  // namespace edgewise::bench

@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import NamedTuple
 
-from bench_rows import LABORATORY, Row, facts_of
+from bench_rows import LABORATORY, facts_of
+from choice import parse_choices
 from program import parsed
 
 
@@ -31,7 +32,6 @@ FAMILIES = {family.name: family for family in (
 )}
 
 
-PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 SCALAR = "scalar"  # the name of the form without SIMD
 LEAST_SHARE = 0.01  # of the trials of a family's largest scene
 UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
@@ -42,8 +42,6 @@ class Method:
     name: str
     source: str
     max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
-    engine: bool = False  # our SIMD engine with one kind of numbers
-    other_bits: bool = False  # projection: one of many subpixel bits
 
     @property
     def limit_px(self):
@@ -51,40 +49,8 @@ class Method:
         return self.max_side_px if self.max_side_px and self.max_side_px < UNLIMITED_PX else None
 
     @property
-    def peer(self):
-        """Another project's rasterizer; the source is its version."""
-        return self.name.startswith(PEERS)
-
-    @property
-    def apart(self):
-        """Whether only the main chart shows it, not the charts of methods."""
-        return self.engine or self.peer or self.other_bits
-
-    @property
     def ours(self):
         return self.source.startswith(("src/", "edgewise/", "frontend/"))
-
-
-class Cost(NamedTuple):
-    """The times of a method on a scene."""
-    row: Row
-    items: int  # covered pixels, or faces
-
-    @property
-    def ns(self):
-        """Median, per item."""
-        return 1e6 * self.row.median_ms / self.items
-
-
-class Cracks(NamedTuple):
-    """Samples where triangles meet: at edges that two share, drawn by neither or by both; and at T-junctions."""
-    gaps: int
-    double_hits: int
-    t_junctions: int
-
-    @property
-    def at_shared_edges(self):
-        return self.gaps + self.double_hits
 
 
 class Pooled(NamedTuple):
@@ -108,19 +74,19 @@ class Measured:
     """One method on one scene."""
     method: Method
     rate: float  # errors per 10⁶
-    cracks: Cracks | None = None  # coverage only; None in older measurements of peers
-    forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty where the scene is not timed
+    t_junctions: int | None = None  # coverage only: samples of cracks there
+    forms: dict = field(default_factory=dict)  # rows by (SIMD target, threads); empty where the scene is not timed
     seen: tuple | None = None  # coverage only: pixels with the wrong visible triangle, and those where something shows through
 
     @property
     def scalar(self):
-        """The cost of the scalar form on one thread, or None."""
+        """The row of the scalar form on one thread, or None."""
         return self.forms.get((SCALAR, 1))
 
     @property
     def simd(self):
-        """The cost of the SIMD form on one thread, or None."""
-        return next((cost for (target, threads), cost in self.forms.items() if target != SCALAR and threads == 1), None)
+        """The row of the SIMD form on one thread, or None."""
+        return next((row for (target, threads), row in self.forms.items() if target != SCALAR and threads == 1), None)
 
 
 @dataclass(frozen=True)
@@ -129,8 +95,6 @@ class Scene:
     family: str
     trials: int
     measured: tuple
-    apart: tuple = ()  # the measurements of methods that are `apart`; coverage only
-    shared_crossings: int = 0  # of edges that triangles share with sample rows or columns; coverage only
     largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
 
     def in_range_of(self, method):
@@ -139,7 +103,7 @@ class Scene:
 
     def of(self, method):
         """The measurement of the method with this name, or None."""
-        return next((m for m in (*self.measured, *self.apart) if m.method.name == method), None)
+        return next((m for m in self.measured if m.method.name == method), None)
 
 
 @dataclass(frozen=True)
@@ -148,6 +112,7 @@ class Accuracy:
     scenes: tuple
     cube: dict | None  # {"frames", "methods": [(Method, gaps, double hits, wrong samples)]}: of all frames
     flicker: dict = field(default_factory=dict)  # {moving scene: {method's name: superfluous changes per 10⁶ true ones}}
+    choices: tuple = ()  # of choice.Panel
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
@@ -186,9 +151,10 @@ class Sweep:
 
 def parse_measured(entry, family, method, forms):
     score = entry[FAMILIES[family].truth]
-    cracks = Cracks(*(int(entry["cracks"][key]) for key in Cracks._fields)) if "cracks" in entry else None
-    seen = tuple(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")) if cracks else None
-    return Measured(method, float(score["errors_per_million"]), cracks, forms, seen)
+    if family != "coverage":
+        return Measured(method, float(score["errors_per_million"]), forms=forms)
+    return Measured(method, float(score["errors_per_million"]), int(entry["cracks"]["t_junctions"]), forms,
+                    tuple(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")))
 
 
 def parse_cube(data, methods):
@@ -199,7 +165,7 @@ def parse_cube(data, methods):
     found = [(methods["coverage", entry["name"]], {key: int(entry[key]["total"]) for key in ("gaps", "double_hits", "extra", "missing")})
              for entry in cube["methods"]]
     return {"frames": int(cube["frames"]), "methods": [(method, of["gaps"], of["double_hits"], of["extra"] + of["missing"])
-                                                       for method, of in found if not method.apart]}
+                                                       for method, of in found]}
 
 
 def times_of(bench):
@@ -214,33 +180,27 @@ def times_of(bench):
 
 def parse_accuracy(data, bench=None):
     times = times_of(bench)
-    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m.get("max_side_px"), bool(m.get("engine")), bool(m.get("other_bits")))
-               for m in data["methods"]}
+    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m.get("max_side_px")) for m in data["methods"] if not m.get("other_bits")}
     scenes = []
     for scene in data["scenes"]:
         family = FAMILIES[scene["family"]]
         triangles = int(scene["triangles"])
-        items = triangles if family.name == "facing" else int(scene["covered"])
         measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]],
-                                   {form: Cost(row, items) for form, row in
+                                   {form: row for form, row in
                                     times.get((family.name, scene["name"], entry["name"]), {}).items()
                                     if row.counters["triangles"] == triangles})  # else timed on a scene of another size
-                    for entry in scene["methods"]]
-        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]),
-                            tuple(m for m in measured if not m.method.apart), tuple(m for m in measured if m.method.apart),
-                            int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
-    by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]
-                 for name in FAMILIES}
+                    for entry in scene["methods"] if (family.name, entry["name"]) in methods]
+        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]), tuple(measured), float(scene.get("largest_side_px", 0.0))))
+    by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
     flicker = {motion["name"]: {entry["name"]: 1e6 * entry["superfluous"] / motion["changes"] for entry in motion["methods"]}
                for motion in data.get("motions", ())}
-    return Accuracy(by_family, tuple(scenes), parse_cube(data, methods), flicker)
+    return Accuracy(by_family, tuple(scenes), parse_cube(data, methods), flicker, parse_choices(data.get("choices", ())))
 
 
 def with_peers(data, peers):
-    """The methods and measurements of peers added to those of facts, scene by scene."""
-    found = {(scene["family"], scene["name"]): scene["methods"] for scene in peers["scenes"]}
-    scenes = [{**scene, "methods": [*scene["methods"], *found.get((scene["family"], scene["name"]), ())]} for scene in data["scenes"]]
-    return {**data, "methods": [*data["methods"], *peers["methods"]], "scenes": scenes}
+    """The methods of peers added to those of facts, in the chart for choosing a method."""
+    found = {choice["name"]: choice["methods"] for choice in peers.get("choices", ())}
+    return {**data, "choices": [{**choice, "methods": [*choice["methods"], *found.get(choice["name"], ())]} for choice in data.get("choices", ())]}
 
 
 def parse_curve(entry):

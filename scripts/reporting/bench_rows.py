@@ -2,8 +2,8 @@
 it holds of each row only what reports use, as compact() writes it.
 
 A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
-BACKEND+frontend, "cell" for a whole frame of factors.py, "lab" for a method of the laboratory, or "needs" for a pipeline
-of it. Older results have rows random_read/WHERE, too, which measure the machine and draw nothing.
+BACKEND+frontend, "cell" for a whole frame of factors.py, "choice" for one of choice.py, "lab" for a method of the
+laboratory, or "needs" for a pipeline of it. Older results have rows random_read/WHERE, too, which measure the machine and draw nothing.
 """
 import os
 from dataclasses import dataclass, field
@@ -65,11 +65,6 @@ def gained(before, after):
 def gained_interval(before, after):
     """The interval of gained()."""
     return noise.ratio_interval(*compared(after, before))
-
-
-def mean_gained(pairs):
-    """The geometric mean of gained(), and its interval; `pairs` are (row before, row after)."""
-    return noise.geometric_mean([compared(after, before) for before, after in pairs])
 
 
 def parse_name(name):

@@ -1,12 +1,7 @@
 """The tables of facts: what a viewer sees of methods, pixels that are not portable, and what scenes need."""
 from bench_rows import facts_of
 from program import BadInput, parsed
-from tables import gain, number
-
-
-def pooled_text(rate):
-    """A pooled rate; and if over half of its errors are in one scene, the rate without it."""
-    return number(rate.rate) + (f"; {number(rate.without)} without {rate.mostly_on}" if rate.mostly_on else "")
+from tables import gain, milliseconds, number
 
 
 def seen_table(accuracy):
@@ -24,6 +19,17 @@ def seen_table(accuracy):
         lines.setdefault(figures, []).append(f"`{method.name}`")
     return (["method", "wrong pixels", "showing through", *(f"flicker, `{name}`" for name in accuracy.flicker)],
             [[", ".join(names), *figures] for figures, names in lines.items()])
+
+
+def method_times(accuracy):
+    """Header and lines: the milliseconds of each coverage method on one thread, in scalar code and with SIMD, without the front end."""
+    scenes = [scene for scene in accuracy.of("coverage") if any(m.scalar for m in scene.measured)]
+
+    def cell(measured):
+        return " / ".join(milliseconds(row) for row in (measured.scalar, measured.simd)) if measured else "–"
+
+    timed = [method for method in accuracy.methods["coverage"] if any((m := scene.of(method.name)) and m.forms for scene in scenes)]
+    return ["method", *(f"`{scene.name}`" for scene in scenes)], [[f"`{method.name}`", *(cell(scene.of(method.name)) for scene in scenes)] for method in timed]
 
 
 def total_text(counts):

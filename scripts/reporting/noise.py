@@ -178,13 +178,3 @@ def interval_of_ratio(before, after, are_rounds):
 def ratio_interval(before, after, are_rounds=False):
     """The bootstrap interval of median_ratio()."""
     return interval_of_ratio(tuple(before), tuple(after), are_rounds)
-
-
-def geometric_mean(compared):
-    """The geometric mean of median_ratio() of each (before, after, are_rounds), and its bootstrap interval. Each is a scene:
-    the mean of a quotient is the quotient of the means, which does not hold for medians of scenes."""
-    def mean(found):
-        return math.exp(sum(map(math.log, found)) / len(compared))
-
-    return (mean([median_ratio(*one) for one in compared]),
-            *bootstrap(lambda generator: mean([resampled_ratio(*one, generator) for one in compared])))

@@ -29,8 +29,8 @@ def chart_rows(accuracy, family):
     for scene in accuracy.of(family):
         rates = {m.method.name: m.rate for m in scene.measured}
         rows.append((scene.name, {name: cell_text(rate) for name, rate in rates.items()}, rates))
-        if scene.name in CRACKS and all(m.cracks for m in scene.measured):
-            cracks = {m.method.name: m.cracks.t_junctions for m in scene.measured}
+        if scene.name in CRACKS and scene.family == "coverage":
+            cracks = {m.method.name: m.t_junctions for m in scene.measured}
             rows.append((CRACKS[scene.name], {name: short(count) for name, count in cracks.items()},
                          {name: 1e6 * count / scene.trials for name, count in cracks.items()}))
     return rows

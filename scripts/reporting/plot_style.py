@@ -67,19 +67,19 @@ def wrapped(text, type_size, width_in=WIDTH_IN):
     return textwrap.fill(text, int(128 * width_in / type_size))
 
 
-def head_in(subtitle):
+def head_in(subtitle, width_in=WIDTH_IN):
     """The height of a title and a subtitle, in inches."""
-    return 0.55 + 0.2 * wrapped(subtitle, 10).count("\n")
+    return 0.55 + 0.2 * wrapped(subtitle, 10, width_in).count("\n")
 
 
 def headline(figure, title, subtitle):
     """Returns the height, in figure fractions, below which the axes may begin. A long title is set in smaller type."""
-    height_in, room = figure.get_figheight(), 0.976 * figure.bbox.width
+    height_in, width_in, room = figure.get_figheight(), figure.get_figwidth(), 0.976 * figure.bbox.width
     text = figure.text(0.012, 1 - 0.12 / height_in, title, fontsize=14, fontweight="bold", va="top", gid="title")
     width = text.get_window_extent(figure.canvas.get_renderer()).width
     text.set_fontsize(14 * min(1.0, room / width))
-    figure.text(0.012, 1 - 0.43 / height_in, wrapped(subtitle, 10), fontsize=10, color=FAINT, va="top")
-    return 1 - head_in(subtitle) / height_in
+    figure.text(0.012, 1 - 0.43 / height_in, wrapped(subtitle, 10, width_in), fontsize=10, color=FAINT, va="top")
+    return 1 - head_in(subtitle, width_in) / height_in
 
 
 # An interval, as a light bar.
@@ -130,13 +130,13 @@ class ZeroAxis:
         axes.axvspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
 
 
-def caption_lines(caption):
-    return "\n".join(wrapped(line, 7.5) for line in caption.split("\n"))
+def caption_lines(caption, width_in=WIDTH_IN):
+    return "\n".join(wrapped(line, 7.5, width_in) for line in caption.split("\n"))
 
 
-def foot_in(caption):
+def foot_in(caption, width_in=WIDTH_IN):
     """The height of an axis' label and a caption, in inches."""
-    return 0.75 + 0.13 * caption_lines(caption).count("\n")
+    return 0.75 + 0.13 * caption_lines(caption, width_in).count("\n")
 
 
 def smaller(svg):
@@ -146,7 +146,7 @@ def smaller(svg):
 
 
 def save(figure, folder, name, caption):
-    lines = caption_lines(caption)
+    lines = caption_lines(caption, figure.get_figwidth())
     figure.text(0.012, 0.07 / figure.get_figheight(), lines, fontsize=7.5, color=FAINT, va="bottom")
     partial = Path(folder) / f".{name}.partial.svg"
     figure.savefig(partial, dpi=130, metadata={"Date": None})

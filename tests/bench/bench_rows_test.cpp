@@ -9,7 +9,6 @@
 
 #include "bench/suite.h"
 #include "bench/workloads/stage.h"
-#include "lab/engine/engine.h"
 #include "message_of.h"
 #include "run_program.h"
 #include "support/options.h"
@@ -155,7 +154,7 @@ TEST(BenchSuite, TimesFramesOfFourScenesAndCoverageMethodsInAQuickRun) {
   options.more_scenes = {folder.write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string()};
   std::set<std::string> scenes;
   for (const Row& row : make_suite(options)) {
-    if (row.method) continue;
+    if (row.method || is_choice(row)) continue;
     EXPECT_TRUE(is_cell(row) || std::count(row.name.begin(), row.name.end(), '/') == 2) << row.name;
     EXPECT_NE(row.timed, Timed::raster) << row.name;
     scenes.insert(row.name.substr(row.name.find('/') + 1, row.name.rfind('/') - row.name.find('/') - 1));
@@ -220,14 +219,10 @@ TEST(BenchMethods, AreTimedInEachForm) {
     expected.insert("lab/mine/family:" + of + "/method:" + std::string(method) + "/simd:" + simd +
                     "/threads:" + std::to_string(threads));
   };
-  for (const auto& methods : {lab::coverage_methods(), lab::engine_methods()})
-    for (const lab::CoverageMethod& method : methods) {
-      if (method.engine) add("coverage", method.info.name, best, 1);
-      if (method.engine) continue;
-      for (const std::string& simd : {std::string("scalar"), method.simd ? best : "scalar"})
-        for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
-          add("coverage", method.info.name, simd, threads);
-    }
+  for (const lab::CoverageMethod& method : lab::coverage_methods())
+    for (const std::string& simd : {std::string("scalar"), method.simd ? best : "scalar"})
+      for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
+        add("coverage", method.info.name, simd, threads);
   for (const lab::VisibilityMethod& method : lab::visibility_methods())
     add("visibility", method.info.name, "scalar", 1);
   Stage stage;
@@ -283,6 +278,23 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
   };
   EXPECT_EQ(error(1), "");
   EXPECT_EQ(error(2), "draws other pixels than its scalar form on one thread");
+}
+
+TEST(BenchChoices, AreTheMethodsOfTheChartInEachOfItsScenes) {
+  SuiteOptions options;
+  options.quick = true;
+  Stage stage;
+  std::map<std::string, int> count;
+  for (Row& row : make_suite(options)) {
+    if (!is_choice(row)) continue;
+    const std::string scene = row.name.substr(7, row.name.find('/', 7) - 7);
+    if (row.peer == nullptr) ++count[scene];
+    if (!row.choice || scene == "sliver") continue;
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << row.name;
+  }
+  EXPECT_EQ(count,
+            (std::map<std::string, int>{{"torus-knot", 8}, {"quads", 8}, {"large", 8}, {"sliver", 8}}));
 }
 
 TEST(BenchPipelines, AreTimedInPairsWhereOneIsRight) {

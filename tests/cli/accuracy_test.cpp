@@ -69,8 +69,6 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
   const json report = json_of("drtk_quad in_view turning-cube --quick");
   EXPECT_EQ(report.at("quick"), true);
   EXPECT_EQ(named(report.at("methods"), "fixed_8_int32").at("max_side_px"), 181);
-  EXPECT_EQ(named(report.at("methods"), "fixed_8_int32").at("engine"), false);
-  EXPECT_EQ(named(report.at("methods"), "engine_exact").at("engine"), true);
 
   ASSERT_EQ(report.at("scenes").size(), 2u);
   const json& quad = named(report.at("scenes"), "drtk_quad");
@@ -97,6 +95,22 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
               named(motion.at("methods"), "fixed_8").at("superfluous"));
     EXPECT_GT(named(motion.at("methods"), "fixed_8").at("superfluous"), 0)
         << "snapping moves edges to and fro";
+  }
+}
+
+TEST(Accuracy, CountsTheFramesOfTheChartForChoosing) {
+  const json report = json_of("choice --quick --method tiled,float_lt");
+  ASSERT_EQ(report.at("choices").size(), 4u);
+  for (const json& choice : report.at("choices")) {
+    EXPECT_EQ(choice.at("frames"), 6);
+    EXPECT_EQ(choice.contains("float_projection"), choice.at("name") == "torus-knot");
+    ASSERT_EQ(choice.at("methods").size(), 4u) << "tiled has three numbers of subpixel bits";
+    for (const json& method : choice.at("methods")) {
+      const auto count = [&](const char* key) { return method.at(key).get<std::uint64_t>(); };
+      EXPECT_LE(6 * count("least"), count("wrong_pixels")) << method;
+      EXPECT_LE(count("wrong_pixels"), 6 * count("most")) << method;
+      EXPECT_LE(count("holes"), count("wrong_pixels")) << method;
+    }
   }
 }
 
@@ -136,7 +150,6 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
   EXPECT_EQ(at_t_junction.size(), 1u);
   EXPECT_GT(*at_t_junction.begin(), 0);
   for (const std::string& name : exact) {
-    if (testing::find_coverage_method(name).engine) continue;  // the turning cube leaves the engine out
     const json& counts = named(report.at("turning_cube").at("methods"), name);
     EXPECT_EQ(counts.at("snapped").at("missing").at("total"), 0) << name;
     EXPECT_EQ(counts.at("snapped").at("missing").at("bound_per_frame"), 3.0 / 120);

@@ -13,19 +13,12 @@
 #include "core/nearest_name.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/cracks.h"
-#include "lab/engine/engine.h"
 #include "support.h"
 
 namespace edgewise::testing {
 
-// Of coverage_methods() or of the engine.
 inline const lab::CoverageMethod& find_coverage_method(std::string_view name) {
-  static const std::vector<lab::CoverageMethod> all = [] {
-    std::vector<lab::CoverageMethod> methods(lab::coverage_methods().begin(), lab::coverage_methods().end());
-    methods.insert(methods.end(), lab::engine_methods().begin(), lab::engine_methods().end());
-    return methods;
-  }();
-  return find_named("coverage method", name, std::span<const lab::CoverageMethod>(all),
+  return find_named("coverage method", name, lab::coverage_methods(),
                     [](const lab::CoverageMethod& m) { return m.info.name; });
 }
 

@@ -7,7 +7,6 @@
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/score.h"
 #include "lab/coverage_support.h"
-#include "lab/engine/engine.h"
 #include "scene/streams.h"
 
 namespace edgewise::lab {
@@ -61,10 +60,8 @@ TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReachOnTheGrid) {
     expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
 }
 
-// For triangles above its size limit a method may draw any pixels inside the bounding box. The engine tests
-// whole blocks (engine_test.cpp).
+// For triangles above its size limit a method may draw any pixels inside the bounding box.
 TEST_P(EveryCoverageMethod, KeepsToTheBoxOfTrianglesTooLargeForIt) {
-  if (method_.engine) return;
   const int largest = method_.promise.max_side_px, side = std::min(4096, 3 * largest);
   if (largest >= side) return;
   auto triangles = hard_floats("anywhere", 100, {side, side}, 5);
@@ -181,8 +178,6 @@ TEST_P(EveryCoverageMethod, IsDescribed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(names_of(coverage_methods())),
-                         [](const auto& param) { return testing::test_name(param); });
-INSTANTIATE_TEST_SUITE_P(Engine, EveryCoverageMethod, ::testing::ValuesIn(names_of(engine_methods())),
                          [](const auto& param) { return testing::test_name(param); });
 
 // ---- The same pixels and depths with every SIMD target

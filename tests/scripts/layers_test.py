@@ -22,7 +22,7 @@ BELOW = {
     "src/draw.cpp": ["core", "scene", "frontend", "raster"],
     "src/c_api.cpp": ["core", "scene", "frontend", "raster", "draw.cpp", "queries"],
     "src/python": ["core", "scene", "image", "files", "frontend", "raster", "draw.cpp", "queries", "lab"],
-    "src/lab": ["core", "scene", "frontend", "raster"],
+    "src/lab": ["core", "scene", "frontend", "raster", "draw.cpp"],
     "src/support": ["core", "scene", "image", "files", "edgewise/backend.h", "edgewise/frontend.h"],
     "src/viewer": ["core", "scene", "image", "files", "frontend", "raster", "lab", "support"],
     "src/web": ["core", "scene", "frontend", "raster", "lab"],

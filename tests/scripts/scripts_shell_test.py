@@ -265,7 +265,7 @@ for program in edgewise edgewise_first edgewise_bench; do cp {program} "$2/$prog
 from pathlib import Path
 folder = Path(sys.argv[sys.argv.index("--out") + 1])
 folder.mkdir()
-(folder / "frontier.svg").write_text(" ".join(sys.argv))
+(folder / "choice.svg").write_text(" ".join(sys.argv))
 """)
         before = self.outside_build()
         result = self.run_script("run", "--no-install", *arguments)
@@ -284,14 +284,14 @@ folder.mkdir()
                  ("cmake .* edgewise_first$", "first render", "first verify", "cmake .* edgewise_bench$", "bench --quick")]
         self.assertEqual(order, sorted(order))
         self.assertLess(max(map(len, told.split("\n\n", 1)[1].splitlines())), 81)
-        self.assertIn("\nChart:    build/first-results/mine/charts/frontier.svg\nPictures: build/first-results/facts/pictures\n", told)
-        self.assertIn("--main", (self.root / "build/first-results/mine/charts/frontier.svg").read_text())
+        self.assertIn("\nChart:    build/first-results/mine/charts/choice.svg\nPictures: build/first-results/facts/pictures\n", told)
+        self.assertIn("--main", (self.root / "build/first-results/mine/charts/choice.svg").read_text())
 
     def test_a_full_run_leaves_results_that_can_be_published(self):
         told = self.ran("--full")
         results = self.root / "build/results"
-        self.assertIn("\nChart:    build/results/mine/charts/frontier.svg\n", told)
-        self.assertNotIn("--main", (results / "mine/charts/frontier.svg").read_text())
+        self.assertIn("\nChart:    build/results/mine/charts/choice.svg\n", told)
+        self.assertNotIn("--main", (results / "mine/charts/choice.svg").read_text())
         self.assertLessEqual({"accuracy", "demos", "needs", "portable", "stability"}, {path.stem for path in (results / "facts").glob("*.json")})
 
     def run_tests(self, cases, *arguments, **environment):

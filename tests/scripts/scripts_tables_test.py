@@ -8,11 +8,11 @@ from dataclasses import replace
 from support import ROOT, SCRIPTS, FolderTest
 
 sys.path.insert(0, str(SCRIPTS / "reporting"))
-from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
-from bench_rows import Bench, Row, parse_name  # noqa: E402
+from accuracy_rows import Accuracy, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
+from bench_rows import Bench, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_lines, speed_table  # noqa: E402
-from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
-from frontier import cracks_of, frontier_figures, points_of, speed_ups, wrong_of  # noqa: E402
+from choice import choice_table, parse_choices  # noqa: E402
+from facts_tables import edges_table, method_times, pipelines_table, read_needs, tutorials_table  # noqa: E402
 from program import BadInput  # noqa: E402
 from python_tables import python_lines, read_python  # noqa: E402
 
@@ -58,26 +58,19 @@ class TablesTest(unittest.TestCase):
 
     def test_methods_have_the_times_of_their_rows(self):
         score = {"errors_per_million": 0.0}
-        data = {"methods": [{"family": "coverage", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
-                "scenes": [{"name": "s", "family": "coverage", "covered": 500, "triangles": 20, "crossings": 9,
+        data = {"methods": [{"family": "facing", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
+                "scenes": [{"name": "s", "family": "facing", "covered": 500, "triangles": 20,
                             "methods": [{"name": name, "source": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
-        rows = {"lab/s/family:coverage/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:coverage/method:m/simd:scalar/threads:2": 3.0,
-                "lab/s/family:coverage/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:coverage/method:m/simd:avx512/threads:2": 1.0,
-                "lab/s/family:coverage/method:naive/simd:scalar/threads:1": 4.0, "lab/t/family:coverage/method:naive/simd:scalar/threads:2": 1.0,
-                "lab/s/family:coverage/method:untimed/simd:scalar/threads:1": 1.0}
+        rows = {"lab/s/family:facing/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:facing/method:m/simd:scalar/threads:2": 3.0,
+                "lab/s/family:facing/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:facing/method:m/simd:avx512/threads:2": 1.0,
+                "lab/s/family:facing/method:naive/simd:scalar/threads:1": 4.0, "lab/t/family:facing/method:naive/simd:scalar/threads:2": 1.0,
+                "lab/s/family:facing/method:untimed/simd:scalar/threads:1": 1.0}
         timed = bench(rows)
         for name, row in timed.rows.items():
             row.counters["triangles"] = 20.0 if "untimed" not in name else 19.0  # a smaller scene of the same name
         self.assertEqual(timed.scenes, [])
         both, naive, untimed = parse_accuracy(data, timed).scenes[0].measured
-        self.assertEqual((both.scalar.ns, both.simd.ns, naive.scalar.ns, naive.simd, untimed.scalar), (8000.0, 4000.0, 8000.0, None, None))
-
-    def test_a_scene_that_has_over_half_of_the_errors_is_named(self):
-        ours, plain = measured("tiled", 800), measured("float_lt", 6000)
-        scenes = (Scene("mesh_on_grid", "coverage", 1000, (measured("tiled", 0), plain)),
-                  Scene("grid4", "coverage", 3000, (ours, measured("float_lt", 2))))
-        told = Accuracy({"coverage": [ours.method, plain.method]}, scenes, None)
-        self.assertEqual([pooled_text(wrong_of(told, m.method)) for m in (ours, plain)], ["200,000; 0 without grid4", "1,500,000; 667 without mesh_on_grid"])
+        self.assertEqual([form and form.median_ms for form in (both.scalar, both.simd, naive.scalar, naive.simd, untimed.scalar)], [4.0, 2.0, 4.0, None, None])
 
     def test_rates_are_pooled_over_large_scenes_within_a_methods_range(self):
         limited = Method("y", "a book", 181)
@@ -107,43 +100,36 @@ class TablesTest(unittest.TestCase):
         self.assertEqual(speed_table(told)[1][0][-1], "1.00")
 
 
-class FrontierTest(unittest.TestCase):
-    """frontier.py: cracks and speed of methods."""
+class ChoiceTest(unittest.TestCase):
+    """choice.py: each method's wrong pixels in a picture, and that picture's time."""
 
-    ROUNDS = (0.98, 1.0, 1.01, 0.99, 1.02, 1.0, 1.0, 0.995, 1.005)
+    @staticmethod
+    def panel(name, **methods):
+        """From (wrong pixels, least, most, holes) of each method, in 4 frames."""
+        return {"name": name, "summary": name, "frames": 4, "methods": [
+            {"name": method, **dict(zip(("wrong_pixels", "least", "most", "holes"), counts))} for method, counts in methods.items()]}
 
-    def timed(self, name, ns, cracks=0, most_px=4096):
-        def cost(factor):
-            return Cost(Row("", "", False, "", {}, [factor * ns * noise for noise in self.ROUNDS]), 10 ** 6)
+    @staticmethod
+    def timed(**times_ms):
+        return bench({f"choice/{name}/threads:1": ms for name, ms in times_ms.items()})
 
-        return Measured(Method(name, "src/raster" if name == "tiled" else "a book", most_px), 0, Cracks(cracks, 0, 7),
-                        {("avx512", 1): cost(1), ("scalar", 1): cost(4)}, (0, 0))
+    def test_a_point_has_a_methods_wrong_pixels_a_frame_and_its_time_in_the_same_run(self):
+        [panel] = parse_choices([self.panel("a", tiled_8=(6, 0, 3, 0), float_lt=(8, 1, 4, 2), llvmpipe=(4, 1, 1, 0))])
+        timed = self.timed(**{"a/method:float_lt": 2.0, "a/method:tiled_8": 1.0, "b/method:llvmpipe": 9.0})
+        self.assertEqual([(point.method, *point.wrong, point.row.median_ms) for point in panel.points(timed)],
+                         [("float_lt", 2.0, 1, 4, 2, 2.0), ("tiled_8", 1.5, 0, 3, 0, 1.0)])
 
-    def accuracy(self, **scenes):
-        """From the methods of each scene; every scene has 10⁵ crossings of shared edges and triangles of 200 px."""
-        made = tuple(Scene(name, "coverage", 10 ** 6, methods, (), 10 ** 5, 200.0) for name, methods in scenes.items())
-        return Accuracy({"coverage": [m.method for m in made[0].measured]}, made, None)
+    def test_the_table_has_a_line_for_each_method_and_holes_are_bold(self):
+        panels = parse_choices([self.panel("a", tiled_8=(6, 0, 3, 0), float_lt=(8, 1, 4, 2)), self.panel("b", tiled_8=(0, 0, 0, 0))])
+        timed = self.timed(**{"a/method:float_lt": 20.0, "a/method:tiled_8": 1.0, "b/method:tiled_8": 0.5})
+        self.assertEqual(choice_table(Accuracy({}, (), None, choices=panels), timed),
+                         (["method", "`a`", "`b`"], [["strict <", "**2 px**, 20.0 ms", "–"], ["tiled, 8 bits", "1.5 px, 1.00 ms", "0 px, 0.500 ms"]]))
 
-    def test_cracks_are_pooled_without_overflow_and_without_the_scene_that_has_most(self):
-        found = self.accuracy(a=(self.timed("x", 1.0, 3), self.timed("y", 1.0, 9, 181)), b=(self.timed("x", 1.0, 1),))
-        rates = cracks_of(found, found.methods["coverage"][0])
-        self.assertEqual((rates.pooled, rates.crossings), (Pooled(20.0, "a", 10.0), 2 * 10 ** 5))
-        self.assertIsNone(cracks_of(found, found.methods["coverage"][1]))
-
-    def test_speed_is_the_geometric_mean_of_scenes_and_outcomes_are_by_scene(self):
-        found = self.accuracy(a=(self.timed("tiled", 1.0), self.timed("x", 4.0)), b=(self.timed("tiled", 2.0), self.timed("x", 1.0)),
-                              c=(self.timed("tiled", 1.0), self.timed("x", 1.0)))
-        ups, base, scenes = speed_ups(found)
-        self.assertEqual((base.name, scenes), ("x", 3))
-        tiled = ups[found.methods["coverage"][0]]
-        self.assertAlmostEqual(tiled["scalar"].middle, 2 ** (1 / 3))
-        self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
-
-    def test_a_point_of_the_chart_has_a_methods_wrong_pixels_and_its_speed(self):
-        found = self.accuracy(a=(self.timed("x", 1.0), replace(self.timed("y", 2.0), seen=(5, 0))))
-        self.assertEqual(wrong_of(found, found.methods["coverage"][1]).rate, 5.0)  # pixels: its rate of samples is 0
-        points = {method.name: (wrong, up.middle) for method, (wrong, up, _) in points_of(frontier_figures(found)[0], found, "simd").items()}
-        self.assertEqual(points, {"x": (0.0, 4.0), "y": (5.0, 2.0)})
+    def test_methods_have_a_table_of_their_times(self):
+        rows = bench({"x": 4.0, "y": 2.0}).rows
+        timed = replace(measured("tiled", 0), forms={("scalar", 1): rows["x"], ("avx2", 1): rows["y"]})
+        self.assertEqual(method_times(accuracy(timed)), (["method", "`mesh_on_grid`"], [["`tiled`", "4.00 / 2.00"]]))
+        self.assertEqual(method_times(accuracy(measured("tiled", 0)))[1], [])
 
 
 def question(name, *answers, needed):

@@ -35,6 +35,8 @@ def methods():
                 rows += entries(f"lab/knot/family:{family}/method:{method}/simd:scalar/threads:{threads}",
                                 [ns / threads * factor * (15e-6 if family == "facing" else 1e-3) for factor in (0.99, 1, 1.01, 1, 1)],
                                 triangles=15.0)
+    for method, ms in (("tiled_8", 1.0), ("float_lt", 3.0)):
+        rows += entries(f"choice/knot/method:{method}/threads:1", [ms * factor for factor in (0.99, 1, 1.01, 1, 1)])
     return rows
 
 
@@ -65,6 +67,9 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
     return {"context": {"backends": "slow tiled", "machine": "test", "rounds": "5", "simd_target": "avx2", "suite": "full"}, "benchmarks": rows + cells() + methods()}
 
 
+WRONG = {"wrong_pixels": 10, "least": 1, "most": 4, "holes": 0}
+
+
 def accuracy():
     """Two methods a family, the second inexact, on a scene that bench() times and on one that it does not."""
     def judged(wrong, crossings):
@@ -86,7 +91,9 @@ def accuracy():
                        for family in FAMILIES for scene in ("knot", "small")],
             "turning_cube": {"frames": 9, "methods": [{"name": name, **{key: {"total": most} for key in ("gaps", "double_hits", "extra", "missing")}}
                                                       for name, most in (("ours", 0), ("float_le", 8))]},
-            "motions": [{"name": "knot", "changes": 100, "methods": [{"name": "ours", "superfluous": 1}]}]}
+            "motions": [{"name": "knot", "changes": 100, "methods": [{"name": "ours", "superfluous": 1}]}],
+            "choices": [{"name": "knot", "summary": "a mesh", "frames": 4, "float_projection": WRONG,
+                         "methods": [{"name": name, **WRONG} for name in ("tiled_8", "float_lt")]}]}
 
 
 def stability():
@@ -274,13 +281,13 @@ class ScriptsTest(FolderTest):
         for i in range(50):
             data["benchmarks"].append({"name": f"tiled/scene{i}", "error_occurred": True, "error_message": "wrong " * 99})
         crowded = self.write("crowded", data)
-        for name in ("crowded/charts/frontier.svg", "facts/pictures/cube.png"):
+        for name in ("crowded/charts/choice.svg", "facts/pictures/cube.png"):
             self.file(name, "")
         wrong = json.loads(json.dumps(VERIFY).replace('"differing_pixels": 0', '"differing_pixels": 3'))
         (crowded / "verify.json").write_text(json.dumps(wrong))
         text = summary(crowded)
         for words in ("ERROR in 50 benchmark rows", "6 pixels differ; see crowded/verify-failures/", "tiled on cube and knot.",
-                      "tiled against ext, 4.0× to 8.0× faster in 2 of 2 scenes.", "Chart: crowded/charts/frontier.svg", "Pictures: facts/pictures", "scripts/run --full"):
+                      "tiled against ext, 4.0× to 8.0× faster in 2 of 2 scenes.", "Chart: crowded/charts/choice.svg", "Pictures: facts/pictures", "scripts/run --full"):
             self.assertIn(words, text)
         for bench_file in ROOT.glob("results/*/bench.json"):
             self.assertRegex(summary(bench_file.parent), r"against llvmpipe, \S+ to")
@@ -291,8 +298,8 @@ class ScriptsTest(FolderTest):
         self.add_facts(data)
         self.fails(run("summary", self.results), "accuracy.json", "edgewise accuracy", "'source'")
         self.add_facts()
-        (self.results / "peers.json").write_text('{"methods": []}')
-        self.fails(run("summary", self.results), "peers.json", "edgewise accuracy --peers", "'scenes'")
+        (self.results / "peers.json").write_text('{"choices": [{}]}')
+        self.fails(run("summary", self.results), "peers.json", "edgewise accuracy --peers", "'name'")
         (self.results / "peers.json").unlink()
         readme = self.folder / "README.md"
         (self.facts / "portable.json").write_text('[{"scene": "cube"}]')
@@ -331,7 +338,7 @@ class ScriptsTest(FolderTest):
         plotted(self, self.results)
         plotted(self, self.results, "--out", self.folder / "again")
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "factors", "stability-grid", *(f"errors-{family}" for family in FAMILIES)]
+        charts = ["area", "choice", "factors", "stability-grid", *(f"errors-{family}" for family in FAMILIES)]
         self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
         for name in drawn:
             self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
@@ -351,31 +358,13 @@ class MachineTest(unittest.TestCase):
         self.assertTrue(describe_machine({**MACHINE, "usable_cores": 1}).startswith("Test CPU, 1 usable of 2 cores, avx2"))
 
 
-class EngineTest(unittest.TestCase):
-    """accuracy_rows.parse_accuracy(): methods that the charts leave out."""
-
-    def test_the_engine_with_other_numbers_is_no_method_of_the_charts(self):
-        from accuracy_rows import parse_accuracy
-
-        plain, with_engine = accuracy(), accuracy()
-        with_engine["methods"].append({**with_engine["methods"][0], "name": "engine_exact", "engine": True})
-        for holder in (with_engine["scenes"][0], with_engine["turning_cube"]):
-            holder["methods"].append({**holder["methods"][0], "name": "engine_exact"})
-        found, expected = parse_accuracy(with_engine), parse_accuracy(plain)
-        self.assertEqual((found.methods, found.cube), (expected.methods, expected.cube))
-        self.assertEqual(found.scenes[0].measured, expected.scenes[0].measured)
-        self.assertEqual([m.method.name for m in found.scenes[0].apart], ["engine_exact"])
-
-    def test_peers_join_the_scenes_of_the_facts(self):
+class PeersTest(unittest.TestCase):
+    def test_peers_join_the_choices_of_the_facts(self):
         from accuracy_rows import parse_accuracy, with_peers
 
-        facts = accuracy()
-        method = {**facts["methods"][0], "name": "llvmpipe", "source": "Mesa"}
-        scenes = [{**facts["scenes"][0], "methods": [{**facts["scenes"][0]["methods"][1], "name": "llvmpipe"}]},
-                  {**facts["scenes"][0], "name": "elsewhere", "methods": []}]
-        found = parse_accuracy(with_peers(facts, {"methods": [method], "scenes": scenes}))
-        self.assertEqual([(m.method.name, m.rate) for m in found.scenes[0].apart], [("llvmpipe", 5000.0)])
-        self.assertEqual([scene.apart for scene in found.scenes[1:]], [()] * 7)
+        peers = {"choices": [{**accuracy()["choices"][0], "methods": [{"name": "llvmpipe", **WRONG}]}, {"name": "elsewhere", "methods": []}]}
+        [found] = parse_accuracy(with_peers(accuracy(), peers)).choices
+        self.assertEqual({method: wrong.mean for method, wrong in found.wrong.items()}, {"tiled_8": 2.5, "float_lt": 2.5, "llvmpipe": 2.5})
 
 
 @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "no matplotlib")

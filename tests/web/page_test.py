@@ -268,8 +268,6 @@ class Page:
             shown = self.counts()
             self.assertGreater(shown["gaps"] + shown["double_hits"] + shown["wrong"], 0, case)
             for method in facts[case]["methods"]:
-                if method["name"].startswith("engine_"):  # not on the page
-                    continue
                 self.choose(method["name"])
                 expected = method["source"]["missing"] + method["source"]["extra"]
                 self.assertEqual(self.counts()["wrong"], expected, f"{case}, {method['name']}")

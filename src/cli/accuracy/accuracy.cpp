@@ -5,7 +5,6 @@
 
 #include "cli/accuracy/score.h"
 #include "core/nearest_name.h"
-#include "lab/engine/engine.h"
 #include "lab/peers/peer.h"
 #include "support/console.h"
 #include "support/options.h"
@@ -67,6 +66,7 @@ std::vector<lab::LabScene> scenes_of_file(const std::string& path, const Accurac
   for (const lab::LabScene& scene : known)
     if (std::find(names.begin(), names.end(), scene.name) == names.end()) names.push_back(scene.name);
   names.push_back(kTurningCube);
+  names.push_back(kChoice);
   throw std::invalid_argument(unknown_name("scene", name, names));
 }
 
@@ -99,10 +99,12 @@ class Run {
     in_cube_ = methods_;
     std::erase_if(in_cube_.coverage, [](const lab::CoverageMethod* method) { return method->one_thread; });
     chosen_.turning_cube = chosen_.turning_cube && !in_cube_.coverage.empty();
-    if (chosen_.scenes.empty() && !chosen_.turning_cube)
+    chosen_.choice = chosen_.choice && !methods_.coverage.empty();
+    if (chosen_.scenes.empty() && !chosen_.turning_cube && !chosen_.choice)
       throw std::invalid_argument("nothing to do: no selected method belongs to a selected scene's family");
     for (const lab::LabScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
     if (chosen_.turning_cube) total_s_ += kCube_s + kMotions_s;
+    if (chosen_.choice) total_s_ += kChoices_s;
   }
 
   AccuracyReport go() {
@@ -120,7 +122,10 @@ class Run {
           judge_turning_cube(plan_, in_cube_, progress(std::string(kTurningCube), kCube_s), report.closeups);
       done_s_ += kCube_s;
       report.motions = judge_motions(plan_, in_cube_, progress("motion", kMotions_s));
+      done_s_ += kMotions_s;
     }
+    if (chosen_.choice)
+      report.choices = judge_choices(plan_, methods_, progress(std::string(kChoice), kChoices_s));
     return report;
   }
 
@@ -132,7 +137,8 @@ class Run {
   }
 
   const AccuracyPlan& plan_;
-  const double kCube_s = plan_.quick ? 1.5 : 45.0, kMotions_s = plan_.quick ? 2.0 : 8.0;
+  const double kCube_s = plan_.quick ? 1.5 : 45.0, kMotions_s = plan_.quick ? 2.0 : 8.0,
+               kChoices_s = plan_.quick ? 2.0 : 60.0;
   ChosenMethods methods_, in_cube_;
   AccuracyScenes chosen_;
   double done_s_ = 0.0, total_s_ = 0.0;
@@ -168,8 +174,6 @@ ChosenMethods methods_of(const AccuracyPlan& plan) {
     return chosen;
   }
   choose(plan, Family::coverage, lab::coverage_methods(), chosen.coverage);
-  // The engine's other numbers are made for positions of 8 bits.
-  if (plan.subpixel_bits == 8) choose(plan, Family::coverage, lab::engine_methods(), chosen.coverage);
   choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);
@@ -181,7 +185,7 @@ ChosenMethods methods_of(const AccuracyPlan& plan) {
 AccuracyScenes scenes_of(const AccuracyPlan& plan) {
   const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick, plan.subpixel_bits);
   AccuracyScenes chosen;
-  chosen.turning_cube = plan.scenes.empty();
+  chosen.turning_cube = chosen.choice = plan.scenes.empty();
   if (plan.scenes.empty())
     std::copy_if(known.begin(), known.end(), std::back_inserter(chosen.scenes), is_judged_by_default);
   std::vector<std::string> seen;
@@ -191,17 +195,20 @@ AccuracyScenes scenes_of(const AccuracyPlan& plan) {
     std::vector<lab::LabScene> found;
     if (name == kTurningCube)
       chosen.turning_cube = true;
+    else if (name == kChoice)
+      chosen.choice = true;
     else if (is_file_path(name))
       found = scenes_of_file(name, plan);
     else
       std::copy_if(known.begin(), known.end(), std::back_inserter(found),
                    [&](const lab::LabScene& scene) { return scene.name == name; });
-    if (found.empty() && name != kTurningCube) reject(name, known);
+    if (found.empty() && name != kTurningCube && name != kChoice) reject(name, known);
     chosen.scenes.insert(chosen.scenes.end(), found.begin(), found.end());
   }
   if (plan.family) {
     std::erase_if(chosen.scenes, [&](const lab::LabScene& scene) { return scene.family != *plan.family; });
     chosen.turning_cube = chosen.turning_cube && plan.family == Family::coverage;
+    chosen.choice = chosen.choice && plan.family == Family::coverage;
   }
   std::stable_sort(chosen.scenes.begin(), chosen.scenes.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -105,11 +106,24 @@ struct MotionResult {
   std::vector<std::pair<std::string, std::uint64_t>> superfluous;  // of each method
 };
 
+// Of all frames of a lab::ChoiceScene: wrong pixels in the best and the worst one, and the sums.
+struct ChoiceTotal {
+  std::uint64_t least = std::numeric_limits<std::uint64_t>::max(), most = 0, wrong = 0, holes = 0;
+};
+struct ChoiceResult {
+  std::string_view name, summary;
+  lab::Size size;
+  int frames;
+  std::vector<std::pair<std::string, ChoiceTotal>> methods = {};
+  std::optional<ChoiceTotal> float_projection = {};  // see lab::ChoiceJudge
+};
+
 struct AccuracyReport {
   std::vector<SceneResult> scenes;
   std::optional<CubeResult> turning_cube;
   std::vector<MotionResult> motions;  // with the turning cube
-  std::vector<Closeup> closeups;      // empty unless the plan has `pictures`
+  std::vector<ChoiceResult> choices;
+  std::vector<Closeup> closeups;  // empty unless the plan has `pictures`
 
   bool ok() const;  // whether every method kept the promises that hold on every scene
 };
@@ -124,12 +138,13 @@ std::string accuracy_tables(const AccuracyReport& report);
 
 nlohmann::json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan);
 
-inline constexpr std::string_view kTurningCube = "turning-cube";
+inline constexpr std::string_view kTurningCube = "turning-cube", kChoice = "choice";
 
-// The scenes that the plan names, family by family, and whether it includes the rotating cube.
+// The scenes that the plan names, family by family, and whether it includes the rotating cube, and the frames
+// of the chart for choosing a method.
 struct AccuracyScenes {
   std::vector<lab::LabScene> scenes;
-  bool turning_cube = false;
+  bool turning_cube = false, choice = false;
 };
 AccuracyScenes scenes_of(const AccuracyPlan& plan);
 

@@ -72,10 +72,11 @@ it rounds them, after unequal copies of a vertex are moved together. Cracks at T
 folds, where rounding lets neighbours overlap (it turned a triangle over), are counted apart; "-":
 it is not known how the peer rounds.
 
-SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, or an
-.obj or .tri file. Large streams are judged in part, always the same part, and a smaller one with
---quick. The JSON gives the number of triangles. Meshes are judged in coverage, visibility and
-projection, streams in coverage only. Facing and clipping use their own scenes.
+SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, choice
+(whole frames, from a scene's vertices to the picture), or an .obj or .tri file. Large streams are
+judged in part, always the same part, and a smaller one with --quick. The JSON gives the number of
+triangles. Meshes are judged in coverage, visibility and projection, streams in coverage only.
+Facing and clipping use their own scenes.
 `edgewise_bench --scene SCENE --methods` times the methods.
 
 Pictures are named FAMILY-SCENE-METHOD.png. Their colours:

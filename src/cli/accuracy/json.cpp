@@ -135,6 +135,20 @@ Json motion_json(const MotionResult& motion) {
   return result;
 }
 
+Json choice_json(const ChoiceResult& choice) {
+  const auto total = [](const ChoiceTotal& of) -> Json {
+    return {{"least", of.least}, {"most", of.most}, {"wrong_pixels", of.wrong}, {"holes", of.holes}};
+  };
+  Json result{{"name", choice.name},          {"summary", choice.summary}, {"width", choice.size.width},
+              {"height", choice.size.height}, {"frames", choice.frames},   {"methods", Json::array()}};
+  for (const auto& [name, of] : choice.methods) {
+    result["methods"].push_back(total(of));
+    result["methods"].back()["name"] = name;
+  }
+  if (choice.float_projection) result["float_projection"] = total(*choice.float_projection);
+  return result;
+}
+
 Json cube_json(const CubeResult& cube) {
   Json result{
       {"frames", cube.frames}, {"width", cube.width}, {"height", cube.height}, {"methods", Json::array()}};
@@ -170,12 +184,12 @@ Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
     if (family != Family::coverage) continue;
     const lab::CoverageMethod& coverage = methods.find_coverage(info->name);
     method["max_side_px"] = coverage.promise.max_side_px;
-    method["engine"] = coverage.engine;
     if (!coverage.simd) method["simd_note"] = coverage.simd_note;
   }
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene, methods));
   if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);
   for (const MotionResult& motion : report.motions) result["motions"].push_back(motion_json(motion));
+  for (const ChoiceResult& choice : report.choices) result["choices"].push_back(choice_json(choice));
   return result;
 }
 

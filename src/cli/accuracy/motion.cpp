@@ -25,13 +25,6 @@ lab::CoverageScene scene_at(std::string_view name, int frame, int subpixel_bits)
                              {.width = kSize.width, .height = kSize.height, .subpixel_bits = subpixel_bits});
 }
 
-// All but our engine with other numbers.
-std::vector<const lab::CoverageMethod*> judged_methods(const ChosenMethods& methods) {
-  std::vector<const lab::CoverageMethod*> judged = methods.coverage;
-  std::erase_if(judged, [](const auto* method) { return method->engine; });
-  return judged;
-}
-
 // The median of an even number of frames is the upper of the middle two.
 PerFrame per_frame(std::vector<std::uint64_t> counts) {
   PerFrame result;
@@ -74,7 +67,7 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores, int
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
                               const std::function<void(double)>& progress, std::vector<Closeup>& closeups) {
-  const auto judged = judged_methods(methods);
+  const auto& judged = methods.coverage;
   const int frames = plan.quick ? kQuickCubeFrames : kCubeFrames;
   std::vector<Scores> scores(judged.size(), Scores(static_cast<std::size_t>(frames)));
   std::mutex mutex;
@@ -116,7 +109,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
 
 std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods,
                                         const std::function<void(double)>& progress) {
-  const auto judged = judged_methods(methods);
+  const auto& judged = methods.coverage;
   const int frames = plan.quick ? kQuickMotionFrames : kMotionFrames;
   std::vector<MotionResult> results;
   for (const std::string_view name : kMovingScenes) {

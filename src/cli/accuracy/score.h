@@ -50,6 +50,9 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
 std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods,
                                         const std::function<void(double)>& progress);
 
+std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMethods& methods,
+                                        const std::function<void(double)>& progress);
+
 // "coverage-drtk_quad-float_le"
 std::string closeup_name(Family family, std::string_view scene, std::string_view method);
 

@@ -269,6 +269,20 @@ std::string motion_table(const std::vector<MotionResult>& motions) {
   return text + '\n';
 }
 
+std::string choice_table(const ChoiceResult& choice) {
+  std::string text = fmt::format("\nwhole frames of {}: wrong pixels, {} frames of {}x{}\n", choice.name,
+                                 choice.frames, choice.size.width, choice.size.height);
+  constexpr const char* kLine = "{:<18}{:>12}{:>10}{:>10}{:>10}\n";
+  text += fmt::format(kLine, "method", "per frame", "least", "worst", "holes");
+  const auto add = [&](std::string_view name, const ChoiceTotal& of) {
+    text += fmt::format(kLine, name, digits(static_cast<double>(of.wrong) / choice.frames), of.least, of.most,
+                        of.holes);
+  };
+  for (const auto& [name, of] : choice.methods) add(name, of);
+  if (choice.float_projection) add("floats alone", *choice.float_projection);
+  return text;
+}
+
 }  // namespace
 
 std::string accuracy_tables(const AccuracyReport& report) {
@@ -280,6 +294,7 @@ std::string accuracy_tables(const AccuracyReport& report) {
       if (const FamilyTable table(report, family, smallest); !table.empty())
         text += kTables[static_cast<std::size_t>(family)](table);
   if (report.turning_cube) text += cube_table(*report.turning_cube) + motion_table(report.motions);
+  for (const ChoiceResult& choice : report.choices) text += choice_table(choice);
   return text.substr(text.starts_with('\n') ? 1 : 0);
 }
 

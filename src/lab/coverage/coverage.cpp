@@ -12,8 +12,8 @@
 #include "core/grid.h"
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/cases/to_stream.h"
-#include "lab/coverage/draw_in_sets.h"
 
 #ifndef EDGEWISE_MORE_COVERAGE_METHODS
 #define EDGEWISE_MORE_COVERAGE_METHODS(X)
@@ -26,15 +26,37 @@ EDGEWISE_MORE_COVERAGE_METHODS(EDGEWISE_DECLARE)
 
 namespace {
 
+// Triangles relative to the window's corner, each with its index as payload. Throws std::invalid_argument for
+// one that then lies beyond the guard band.
+std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, Window window) {
+  std::vector<ScreenTriangle> list(triangles.begin(), triangles.end());
+  for (std::uint32_t index = 0; ScreenTriangle & t : list) {
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t x = t.x_q15[i] - std::int64_t{window.x0} * contract::kPixel_q15,
+                         y = t.y_q15[i] - std::int64_t{window.y0} * contract::kPixel_q15;
+      if (std::max(std::abs(x), std::abs(y)) > contract::kGuard_q15)
+        throw std::invalid_argument("triangle " + std::to_string(index) + " lies beyond the guard band");
+      t.x_q15[i] = static_cast<std::int32_t>(x), t.y_q15[i] = static_cast<std::int32_t>(y);
+    }
+    t.payload = index++;
+  }
+  return list;
+}
+
+// The pixels of each triangle: triangles are drawn in sets with disjoint bounding boxes.
 void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Window window,
                   std::vector<Run>& runs) {
   const std::vector<ScreenTriangle> triangles = shifted(snapped, window);
+  Framebuffer frame(window.width, window.height);
   std::vector<ScreenTriangle> drawn;
-  draw_in_sets(triangles, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
+  for (const auto& set : disjoint_sets(triangles, window.width, window.height)) {
     drawn.clear();
     for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
     backend.draw(drawn, frame.view(), {kNoTriangle});
-  });
+    for (int y = 0; y < window.height; ++y)
+      append_runs({frame.payload_row(y), static_cast<std::size_t>(window.width)}, y + window.y0, window.x0,
+                  runs);
+  }
 }
 
 // Rule 2; the current rounding mode is half to even.
@@ -112,21 +134,6 @@ bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b
 const CoverageMethod& find_drawing_method(std::string_view name) {
   return find_named("backend or coverage method", name, drawing_methods(),
                     [](const CoverageMethod& m) { return m.info.name; });
-}
-
-std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, Window window) {
-  std::vector<ScreenTriangle> list(triangles.begin(), triangles.end());
-  for (std::uint32_t index = 0; ScreenTriangle & t : list) {
-    for (int i = 0; i < 3; ++i) {
-      const std::int64_t x = t.x_q15[i] - std::int64_t{window.x0} * contract::kPixel_q15,
-                         y = t.y_q15[i] - std::int64_t{window.y0} * contract::kPixel_q15;
-      if (std::max(std::abs(x), std::abs(y)) > contract::kGuard_q15)
-        throw std::invalid_argument("triangle " + std::to_string(index) + " lies beyond the guard band");
-      t.x_q15[i] = static_cast<std::int32_t>(x), t.y_q15[i] = static_cast<std::int32_t>(y);
-    }
-    t.payload = index++;
-  }
-  return list;
 }
 
 void append_runs(std::span<const std::uint32_t> row, int y, int x0, std::vector<Run>& runs) {

@@ -45,7 +45,7 @@ class Canvas {
   // Made when it is first used.
   Backend& backend(std::string_view name, const std::function<std::unique_ptr<Backend>()>& make);
 
-  Framebuffer frame;  // all methods write payloads; backends and the engine also write depths
+  Framebuffer frame;  // all methods write payloads; backends also write depths
   std::vector<float, LineAllocator<float>> depth;  // of all other methods; rows are frame.stride() apart
 
  private:
@@ -86,8 +86,6 @@ struct CoverageMethod {
   // Whether draw uses the execution's SIMD target. If not, `simd_note` says why a SIMD form is missing.
   bool simd = false;
   std::string_view simd_note = {};
-  // The SIMD engine with one kind of numbers: timed with SIMD only, and left out of the turning cube.
-  bool engine = false;
   bool one_thread = false;  // all functions must run on one thread: an OpenGL context belongs to a thread
 };
 

@@ -4,10 +4,8 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "edgewise/backend.h"
-#include "lab/coverage/coverage.h"
 #include "raster/kernels.h"
 
 namespace edgewise::lab {
@@ -26,9 +24,5 @@ TileKernel engine_kernel(EngineArithmetic arithmetic, SimdTarget target);
 
 // In exact arithmetic this is the composition `tiles+edges+hiz`.
 std::unique_ptr<Backend> make_engine(EngineArithmetic arithmetic);
-
-// The engine with each kind of arithmetic, the contract's first. Apart from coverage_methods(), because
-// sweeps and the viewer leave them out.
-std::span<const CoverageMethod> engine_methods();
 
 }  // namespace edgewise::lab
