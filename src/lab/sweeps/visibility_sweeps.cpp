@@ -73,7 +73,7 @@ Measured measure_sliver_depth(double aspect, std::uint64_t seed) {
 }  // namespace
 
 std::vector<Sweep> visibility_sweeps() {
-  constexpr std::string_view kDepthBits = "31 bits of depth end at a distance of z^2 / (2^31 near)";
+  constexpr std::string_view kDepthBits = "31 bits of depth err by up to 34 units: z^2 / (2^26 near) at a distance z";
   return {{"separation_at_10",
            Family::visibility,
            "two tilted planes at z = 10, in either order; near 0.1, far 1000",
