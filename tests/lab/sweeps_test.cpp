@@ -228,15 +228,13 @@ TEST(CoverageSweeps, AtPixelCentresAndHalvesOnlyTheTieRuleMatters) {
 
 TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
   for (const auto name : {"separation_at_10", "separation_at_100"}) {
-    const SweepResult separation = swept(name);
+    const SweepResult separation = run_sweep(find_sweep(name), kFull, 2, [] {});
     const auto start = [&](std::string_view method) { return Found(separation, method).start().value(); };
     EXPECT_GT(start("unorm16"), 50 * start("unorm24")) << name;
     EXPECT_GT(start("unorm24"), 10 * start("reversed_z")) << name;
     EXPECT_GT(start("unorm24"), 2 * start("contract31")) << name;
     EXPECT_GE(start("float_z"), start("contract31")) << name;
-    // Reversed Z has finer steps than ours far away, and coarser ones nearby.
-    const bool is_far = std::string_view(name) == "separation_at_100";
-    EXPECT_EQ(start("contract31") > start("reversed_z"), is_far) << name;
+    EXPECT_GT(start("contract31"), start("reversed_z")) << name << ": ours err by up to 34 units";
     EXPECT_EQ(start("submission_order"), separation.sweep->positions.front()) << name;
   }
   // The smallest separable distance z^2 / (near 2^bits) is 1.5 and 0.006.

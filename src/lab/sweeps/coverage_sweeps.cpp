@@ -275,7 +275,7 @@ std::vector<Sweep> coverage_sweeps() {
                   "a mesh pans slowly: pixels that change though the truth does not",
                   {"speed", "px per frame", true},
                   {"superfluous changes per 10^6 true ones", true, 1e6},
-                  30,
+                  50,
                   powers_of_two(-1, -8),
                   measure_pan,
                   kRounding});

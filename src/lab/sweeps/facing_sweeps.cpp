@@ -82,12 +82,6 @@ Measured measure_edge_on(double height_px, std::uint64_t seed) {
   return measure_scene(scene);
 }
 
-std::vector<double> tilts() {
-  std::vector<double> degrees;
-  for (int i = 0; i <= 80; i += 10) degrees.push_back(i);
-  return degrees;
-}
-
 std::vector<double> every_other(std::vector<double> positions) {
   std::vector<double> kept;
   for (std::size_t i = 0; i < positions.size(); i += 2) kept.push_back(positions[i]);
@@ -112,7 +106,7 @@ std::vector<Sweep> facing_sweeps() {
            {"tilt of the ray to the faces", "degrees", false},
            kMisjudged,
            10,
-           tilts(),
+           {0, 5, 10, 20, 40, 80},
            [](double degrees, std::uint64_t seed) { return measure_tilt(degrees, true, seed); }},
           {"tilt_orthographic",
            Family::facing,
@@ -120,7 +114,7 @@ std::vector<Sweep> facing_sweeps() {
            {"tilt of the ray to the faces", "degrees", false},
            kMisjudged,
            6,
-           tilts(),
+           {0, 5, 10, 20, 40, 80},
            [](double degrees, std::uint64_t seed) { return measure_tilt(degrees, false, seed); }},
           {"edge_on",
            Family::facing,

@@ -73,13 +73,14 @@ Measured measure_sliver_depth(double aspect, std::uint64_t seed) {
 }  // namespace
 
 std::vector<Sweep> visibility_sweeps() {
-  constexpr std::string_view kDepthBits = "31 bits of depth err by up to 34 units: z^2 / (2^26 near) at a distance z";
+  constexpr std::string_view kDepthBits =
+      "31 bits of depth err by up to 34 units: z^2 / (2^26 near) at a distance z";
   return {{"separation_at_10",
            Family::visibility,
            "two tilted planes at z = 10, in either order; near 0.1, far 1000",
            {"separation", "", true},
            kWrongTriangles,
-           0.1,
+           2.5,
            decades(0, -8),
            [](double separation, std::uint64_t seed) { return measure_separation(10, separation, seed); },
            kDepthBits},
@@ -88,7 +89,7 @@ std::vector<Sweep> visibility_sweeps() {
            "two tilted planes at z = 100, in either order; near 0.1, far 1000",
            {"separation", "", true},
            kWrongTriangles,
-           0.1,
+           2.5,
            decades(1, -7),
            [](double separation, std::uint64_t seed) { return measure_separation(100, separation, seed); },
            kDepthBits},
@@ -97,7 +98,7 @@ std::vector<Sweep> visibility_sweeps() {
            "bars, each over the end of the previous one; three or more form a cycle",
            {"bars", "", false},
            kWrongTriangles,
-           0.1,
+           2.5,
            {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24},
            measure_cycle},
           {"sliver_depth",
@@ -105,7 +106,7 @@ std::vector<Sweep> visibility_sweeps() {
            "slivers: visible triangles, and depths outside the triangle's own range",
            {"length over width", "", true},
            {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
-           0.4,
+           8,
            decades(1, 5),
            measure_sliver_depth}};
 }
