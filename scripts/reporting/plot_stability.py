@@ -85,10 +85,18 @@ def told(sweeps):
     return lines, {m: curves for m, curves in rows.items() if not any(m in methods for methods in alike.values())}
 
 
-def scale_text(x):
-    """The name and unit of a sweep's places, or the unit alone if a cell has no room for both."""
-    whole = ", ".join(filter(None, (x["name"], x["unit"])))
-    return whole if len(whole) < 24 else x["unit"]
+def scale_text(sweep):
+    """The name, unit and ends of a sweep's places; without the name if a cell has no room for it."""
+    ends = " to ".join(tidy(sweep.curves[0].points[end][0]) for end in (0, -1))
+    whole = f"{', '.join(filter(None, (sweep.x['name'], sweep.x['unit'])))}: {ends}"
+    return whole if len(whole) < 32 else f"{sweep.x['unit']}: {ends}"
+
+
+def summed_up(blocks):
+    """"vertices anywhere: ours_15 holds; vertices at pixel centres and halves: ours_8 holds", of the first two blocks."""
+    least = [(name, next((m.name for m, curves in rows_of(of).items() if m.ours and all(held(c) == 1 for c in curves)), "none of ours"))
+             for name, of, *_ in blocks[:2]]
+    return "; ".join(f"{name.split(', ')[-1]}: {who} holds" for name, who in least)
 
 
 def grid(sweeps, folder, caption):
@@ -109,7 +117,7 @@ def grid(sweeps, folder, caption):
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set(xlim=(0, WIDTH_IN), ylim=(height, 0))
     axes.axis("off")
-    headline(figure, finding(*blocks[0][:2]), subtitle)
+    headline(figure, summed_up(blocks).capitalize(), subtitle)
     y = head_in(subtitle) + 0.05
     for name, of, lines, rows in blocks:
         axes.text(0.08, y + 0.2, finding(name, of), fontsize=10.5, fontweight="bold", va="bottom")
@@ -130,8 +138,7 @@ def draw_rows(axes, sweeps, rows, cell_in, y):
     for i, sweep in enumerate(sweeps):
         x = NAME_IN + i * (cell_in + GAP_IN)
         axes.text(x, y + 0.2, title_of(sweep), fontsize=8.6, va="bottom")
-        ends = " to ".join(tidy(sweep.curves[0].points[end][0]) for end in (0, -1))
-        axes.text(x, y + 0.33, f"{scale_text(sweep.x)}: {ends}", fontsize=6.8, color=FAINT, va="bottom")
+        axes.text(x, y + 0.33, scale_text(sweep), fontsize=6.8, color=FAINT, va="bottom")
     y += HEAD_IN
     for method, curves in rows.items():
         axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center", fontweight="bold" if method.ours else "normal")
