@@ -34,6 +34,7 @@ FAMILIES = {family.name: family for family in (
 
 SCALAR = "scalar"  # the name of the form without SIMD
 LEAST_SHARE = 0.01  # of the trials of a family's largest scene
+MESHES, SINGLE, OUR_GRID = "meshes", "single triangles", "vertices on our grid"  # kinds of scenes
 UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
 
 
@@ -51,6 +52,14 @@ class Method:
     @property
     def ours(self):
         return self.source.startswith(("src/", "edgewise/", "frontend/"))
+
+
+class Seen(NamedTuple):
+    """Pixels of a picture that show the wrong triangle; those where something shows through; and background one pixel wide between
+    triangles of meshes, which the exact picture may have, too."""
+    wrong: int
+    through: int
+    slits: int | None = None  # None in older measurements of peers
 
 
 class Pooled(NamedTuple):
@@ -76,7 +85,7 @@ class Measured:
     rate: float  # errors per 10⁶
     t_junctions: int | None = None  # coverage only: samples of cracks there
     forms: dict = field(default_factory=dict)  # rows by (SIMD target, threads); empty where the scene is not timed
-    seen: tuple | None = None  # coverage only: pixels with the wrong visible triangle, and those where something shows through
+    seen: Seen | None = None  # coverage only
 
     @property
     def scalar(self):
@@ -96,6 +105,7 @@ class Scene:
     trials: int
     measured: tuple
     largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
+    kind: str = MESHES  # coverage only: or OUR_GRID, or single triangles, or small scenes
 
     def in_range_of(self, method):
         """Beyond its range a method's integers overflow, which is another fault than the one that is counted."""
@@ -118,8 +128,9 @@ class Accuracy:
         return [scene for scene in self.scenes if scene.family == family]
 
     def pooled(self, family):
-        """The scenes that count in rates of the whole family: in smaller ones a single trial decides."""
-        scenes = self.of(family)
+        """The scenes that count in rates of the whole family: in smaller ones a single trial decides, and vertices on our grid favour
+        ours."""
+        scenes = [scene for scene in self.of(family) if scene.kind != OUR_GRID]
         return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
 
     def rate(self, family, method):
@@ -136,9 +147,10 @@ class Accuracy:
 
 @dataclass(frozen=True)
 class Curve:
-    method: str
+    method: Method
     points: tuple
     starts_to_fail: float | None
+    trials: int  # the fewest at a point
 
 
 @dataclass(frozen=True)
@@ -147,6 +159,7 @@ class Sweep:
     family: str
     x: dict
     curves: tuple
+    why: str = ""  # ours fail
 
 
 def parse_measured(entry, family, method, forms):
@@ -154,7 +167,7 @@ def parse_measured(entry, family, method, forms):
     if family != "coverage":
         return Measured(method, float(score["errors_per_million"]), forms=forms)
     return Measured(method, float(score["errors_per_million"]), int(entry["cracks"]["t_junctions"]), forms,
-                    tuple(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")))
+                    Seen(*(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")), score.get("slits")))
 
 
 def parse_cube(data, methods):
@@ -190,7 +203,8 @@ def parse_accuracy(data, bench=None):
                                     times.get((family.name, scene["name"], entry["name"]), {}).items()
                                     if row.counters["triangles"] == triangles})  # else timed on a scene of another size
                     for entry in scene["methods"] if (family.name, entry["name"]) in methods]
-        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]), tuple(measured), float(scene.get("largest_side_px", 0.0))))
+        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]), tuple(measured), float(scene.get("largest_side_px", 0.0)),
+                            scene["kind"]))
     by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
     flicker = {motion["name"]: {entry["name"]: 1e6 * entry["superfluous"] / motion["changes"] for entry in motion["methods"]}
                for motion in data.get("motions", ())}
@@ -206,12 +220,12 @@ def with_peers(data, peers):
 def parse_curve(entry):
     points = tuple((float(x), float(y)) for x, y in entry["points"])
     fails = entry["starts_to_fail"]
-    return Curve(entry["method"], points, None if fails is None else float(fails))
+    return Curve(Method(entry["method"], entry["source"]), points, None if fails is None else float(fails), min(entry["trials"]))
 
 
 def parse_stability(data):
     return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, {"name": sweep["x"]["name"], "unit": sweep["x"].get("unit", "")},
-                       tuple(map(parse_curve, sweep["curves"])))
+                       tuple(map(parse_curve, sweep["curves"])), sweep["why"])
                  for sweep in data["sweeps"])
 
 

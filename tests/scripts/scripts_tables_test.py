@@ -59,7 +59,7 @@ class TablesTest(unittest.TestCase):
     def test_methods_have_the_times_of_their_rows(self):
         score = {"errors_per_million": 0.0}
         data = {"methods": [{"family": "facing", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
-                "scenes": [{"name": "s", "family": "facing", "covered": 500, "triangles": 20,
+                "scenes": [{"name": "s", "family": "facing", "covered": 500, "triangles": 20, "kind": "meshes",
                             "methods": [{"name": name, "source": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
         rows = {"lab/s/family:facing/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:facing/method:m/simd:scalar/threads:2": 3.0,
                 "lab/s/family:facing/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:facing/method:m/simd:avx512/threads:2": 1.0,
