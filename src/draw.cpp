@@ -1,4 +1,4 @@
-// The only file that knows the inside of both front end and backends.
+// The only file that calls the private half of both Frontend and Backend. The map: src/raster/README.md
 #include "edgewise/draw.h"
 
 #include "core/execution.h"
@@ -8,12 +8,10 @@
 
 namespace edgewise {
 
-// Reaches what front end and backend do for draw() alone.
-struct DrawAccess {
-  // Bins triangles where they are made, then draws them. Returns false, with the frame as it was, if that is
-  // not possible.
-  static bool draw_source(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
-                          Backend& backend, const FramePart& part, const Execution& execution) {
+struct DrawAccess {  // a friend of both
+  // Bins triangles where they are made, then draws them. If it cannot, returns false and leaves the frame.
+  static bool bin_and_draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
+                           Backend& backend, const FramePart& part, const Execution& execution) {
     TriangleSource* const source = frontend.start_source(drawable, options, execution);
     if (source == nullptr) return false;
     struct End {  // also if drawing throws
@@ -32,8 +30,8 @@ void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& o
   check(frame);
   const Execution resolved = checked(execution);
   const FramePart part = checked(frame, pass);
-  // Where nothing is drawn, the front end still counts its triangles.
-  if (is_empty(part) || !DrawAccess::draw_source(drawable, frontend, options, backend, part, resolved))
+  // run() even if the part is empty: the front end still counts its triangles.
+  if (is_empty(part) || !DrawAccess::bin_and_draw(drawable, frontend, options, backend, part, resolved))
     backend.draw(frontend.run(drawable, options, resolved), frame, pass, resolved);
 }
 

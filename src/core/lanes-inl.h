@@ -52,7 +52,7 @@ HWY_INLINE void replace(std::int32_t* at, hn::Mask<D> where, V v) {
 #endif
 }
 
-// Some kernels end without this instruction (GCC 12). The caller's SSE code would then merge into registers
+// vzeroupper, without which GCC 12 ends some kernels. The caller's SSE code would then merge into registers
 // whose upper halves are in use, and run at half speed until the next context switch.
 HWY_INLINE void clear_upper_halves() {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number

@@ -12,7 +12,7 @@ namespace edgewise {
 
 class TriangleSource {
  public:
-  static constexpr std::size_t kInputsAtOnce = 2048;  // make() takes at most this many inputs per call
+  static constexpr std::size_t kInputsAtOnce = 2048;  // a backend asks make() for at most so many per call
 
   virtual ~TriangleSource() = default;
 
@@ -24,7 +24,7 @@ class TriangleSource {
   // Called when all inputs are made, before anything is drawn. Throws std::invalid_argument if one was
   // invalid.
   virtual void finish() {}
-  // The screen triangles if they lie in memory, one per input. Else null, or if there are none.
+  // The screen triangles if they lie in memory, one per input. Null if they are made, or if there are none.
   virtual const ScreenTriangle* stored() const { return nullptr; }
 };
 

@@ -107,7 +107,7 @@ struct BackendInfo {
 // any thread may call.
 std::span<const BackendInfo> backends();
 
-// Other compositions of the parts that the backends are made of, for experiments. They draw the same picture.
+// Compositions of the parts that the backends are made of, for experiments. They draw the same picture.
 // Their names are TRAVERSAL+FILL[+hiz][+masks]; src/raster/README.md explains the parts.
 std::span<const BackendInfo> compositions();
 

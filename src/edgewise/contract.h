@@ -120,7 +120,7 @@ inline constexpr int kPlaneBits = 16 + kFineBits;
 // The depth plane of a triangle (rule 6).
 struct DepthPlane {
   std::uint64_t gx, gy;  // 48.16 fixed point per pixel, wrapped
-  std::uint64_t origin;  // 2^31 (depth at pixel (0, 0) + 1/2 before it is rounded down), wrapped
+  std::uint64_t origin;  // 2^31 (base of the cell at pixel (0, 0) + 1/2) before it is rounded down, wrapped
   std::uint32_t zx, zy;  // gx, gy rounded to whole units
 
   // Depth at a cell's first pixel. Both coordinates must be multiples of kDepthCell.

@@ -66,9 +66,9 @@ struct FrontendOptions {
   bool keep_states = false;  // records the TriangleState of each triangle; slower, same triangles
 };
 
-// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. What doubles
-// computed is rounded to float here: more than 8 subpixel bits, and new vertices. A scene's z01 is the float
-// z / w that most renderers use. ScreenTriangle::z is finer: it does not come from z01 (rule 6).
+// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. With more than 8
+// subpixel bits, and for new vertices, they are doubles rounded to float. A scene's z01 is the float z / w
+// that most renderers use. ScreenTriangle::z is finer: it does not come from z01 (rule 6).
 struct UnsnappedTriangle {
   float x_px[3], y_px[3], z01[3];
 };

@@ -84,7 +84,7 @@ class Clipper {
 struct Vertex {
   std::int32_t x_q15, y_q15;  // 2^-15 px; x_q15, y_q15 and z are valid only if the vertex needs no clipping
   std::uint32_t z;            // contract units
-  std::uint32_t outside;      // flags of Outside
+  std::uint32_t outside;      // flags of Outside; kNotFinite stands alone
 };
 static_assert(sizeof(Vertex) == 16);
 

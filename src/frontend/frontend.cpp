@@ -1,6 +1,6 @@
 // Runs the steps of the front end:
-// - meshes: scene_maker.cpp. It transforms vertices (transform.cpp), assembles triangles (assemble.cpp) and
-//   shades them (shade.cpp).
+// - meshes: scene_maker.cpp. It transforms vertices (transform.cpp, vertex_window.h), assembles triangles
+//   (assemble.cpp) and shades them (shade.cpp).
 // - streams: stream.cpp
 // - special cases of both: one_by_one.cpp, clip.cpp
 #include "edgewise/frontend.h"

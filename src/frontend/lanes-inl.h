@@ -22,7 +22,7 @@ HWY_INLINE VF real(V words) {
   return hn::BitCast(DF{}, words);
 }
 
-// f() of the arguments in double, rounded or truncated to Tag's type.
+// f() of the arguments in double: rounded if Tag's type is float, truncated if it is an integer.
 template <class Tag, typename F, class... Vectors>
 HWY_INLINE hn::Vec<Tag> in_double(Tag d, F&& f, Vectors... v) {
 #if HWY_TARGET == HWY_SCALAR
@@ -63,8 +63,8 @@ HWY_INLINE Words words_in_double(F&& f, VF x, VF y, VF z) {
 
 // snap(), quantize_depth() and ViewDepth::units() of fixed.h, for vectors.
 
-// The floats are rounded once, so this is exact for all numbers of bits. Only valid within the guard band,
-// and up to 8 bits: one float beyond it still rounds to its limit.
+// Scaling is exact, so positions in the guard band are rounded once, for any number of bits. Up to 8 bits,
+// one float beyond the band still rounds to its limit.
 HWY_INLINE V snap(VF px, int bits) {
 #if HWY_TARGET == HWY_SCALAR  // Highway 1.0.3 rounds 0.49999997 up there
   return hn::Set(D{}, edgewise::snap(double{hn::GetLane(px)}, bits));
@@ -139,8 +139,9 @@ HWY_INLINE void cull_and_append(const TriangleLanes& t, hn::Mask<D> outside, con
   const D d;
   const V sign = area_sign(t, is_fine(options.subpixel_bits));
   const Cull cull = options.cull;
-  const V front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : 2);
-  const V back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : 2);
+  constexpr int kNoSign = 2;
+  const V front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : kNoSign);
+  const V back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : kNoSign);
   hn::Mask<D> faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));
   if (flags != nullptr) {
     const V mark = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, D>{}, flags));

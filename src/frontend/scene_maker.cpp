@@ -90,7 +90,7 @@ SceneMaker::Sight SceneMaker::find_sight(Worker& w) {
   constexpr std::size_t kGranules = 4;  // at once
   const std::size_t vertices = w.task->mesh.positions.size(),
                     granules = (vertices + VertexWindow::kGranule - 1) / VertexWindow::kGranule;
-  std::uint32_t common = kInvisible | kNotFinite;
+  std::uint32_t common = kInvisible | kNotFinite;  // of all vertices: the window is empty
   for (std::size_t i = 0; i < granules && (common & kInvisible) != 0; i += kGranules)
     common &= w.window.fill(*w.task, i, std::min(i + kGranules, granules), transform_);
   const Sight found = common == 0 || (common & kNotFinite) != 0 ? in_sight : out_of_sight;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/buffer.h"
+#include "core/triangle_source.h"
 #include "edgewise/frontend.h"
 #include "edgewise/simd_target.h"
 #include "frontend/clip.h"
@@ -42,7 +43,7 @@ struct StreamTask {
 };
 
 // Triangles that are made together: their output stays in the L2 cache until it is shaded, or binned.
-inline constexpr std::size_t kChunkTriangles = 2048;
+inline constexpr std::size_t kChunkTriangles = TriangleSource::kInputsAtOnce;
 
 // Below this many triangles, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
@@ -105,9 +106,9 @@ struct IndexRange {
 // The least and the greatest vertex that triangles begin … end - 1 of the mesh name, at least one triangle.
 using IndexRangeKernel = IndexRange (*)(const Mesh& mesh, std::size_t begin, std::size_t end);
 
-// The transformed vertices of consecutive triangles.
+// The transformed vertices of consecutive triangles, whose indices lie in a range of at most kVertices.
 struct Corners {
-  static constexpr std::uint32_t kVertices = 1 << 16;  // at most; a power of two
+  static constexpr std::uint32_t kVertices = 1 << 16;  // a power of two
 
   const Vertex* vertices;
   const glm::uvec3* indices;  // by triangle

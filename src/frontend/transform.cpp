@@ -26,8 +26,7 @@ struct Offsets {
 
 template <class Reals>
 struct ClipVectors {
-  Reals x, y, z, w;
-  Reals beyond;  // z - w, if z is not w
+  Reals x, y, z, w, beyond;  // beyond: z - w; without kHasZ, z is w, and `beyond` unused
 };
 
 HWY_INLINE Offsets from_origin(const ScreenTransform& to_screen, const float* positions) {

@@ -51,7 +51,7 @@ class TriangleMaker : public TriangleSource {
  protected:
   const FrontendOptions* options_ = nullptr;
   TriangleState* states_ = nullptr;
-  FrontendStats stats_;  // that no output has
+  FrontendStats stats_;  // what the workers' outputs do not count
 
  private:
   struct Worker {

@@ -24,11 +24,11 @@ class Bands final : public Backend {
  private:
   bool draw_source(TriangleSource& triangles, const FramePart& part, const Execution& execution) override {
     const FrameView& frame = part.frame;
-    // A cell is a band.
+    // One column, so a cell's index is its band's.
     const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2, part.x0, part.y0};
     if (!bins_.build(triangles, grid, execution.threads, execution.target, /*with_masks=*/false))
       return false;
-    // Each vector of pixels lies in the frame, which must be as wide as the longest vector.
+    // Each vector of pixels lies left of the part's end (FrameTask::region).
     const FrameKernel fill = fill_(frame.width < kLongestVector ? SimdTarget::scalar : execution.target);
     const ClearKernel clear = clear_kernel(execution.target);
     const int first = part.y0 / kBandRows;
@@ -53,7 +53,7 @@ class Bands final : public Backend {
 
 }  // namespace
 
-std::unique_ptr<Backend> make_bands(FrameKernel (*fill)(SimdTarget)) {
+std::unique_ptr<Backend> band_backend(FrameKernel (*fill)(SimdTarget)) {
   return std::make_unique<Bands>(fill);
 }
 

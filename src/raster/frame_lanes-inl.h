@@ -35,13 +35,13 @@ struct FrameRow {
 };
 
 // Depth-tests a vector of pixels, and writes those of `covered` that are nearer.
-HWY_INLINE void write(std::int32_t* depth, std::int32_t* payload, hn::Mask<D> covered, V z, V colour) {
-  const auto wins = hn::And(covered, hn::Lt(z, hn::LoadU(D{}, depth)));
-  replace(depth, wins, z);
-  replace(payload, wins, colour);
+HWY_INLINE void write(std::int32_t* depths, std::int32_t* payloads, hn::Mask<D> covered, V z, V payload) {
+  const auto wins = hn::And(covered, hn::Lt(z, hn::LoadU(D{}, depths)));
+  replace(depths, wins, z);
+  replace(payloads, wins, payload);
 }
 
-// The first pixel of the vector from pixel x on, moved left if it would pass the area's right end.
+// The first pixel of the vector from pixel x on, moved left if it would pass the region's right end.
 HWY_INLINE int vector_from(int x, int right) {
   return std::min(x, right - kLanes);
 }
@@ -52,8 +52,8 @@ HWY_INLINE V set(std::uint32_t v) {
   return hn::Set(D{}, static_cast<std::int32_t>(v));
 }
 
-// A batch of triangles: their boxes in the area, and their depth planes (rule 6). The area lies in one row of
-// depth cells. Aligned, so that a vector of entries lies in one cache line.
+// A batch of triangles: their boxes in the region, and their depth planes (rule 6). The region lies in one
+// row of depth cells. Aligned, so that a vector of entries lies in one cache line.
 struct alignas(64) FrameBatch {
   std::int32_t x0[kBatch], y0[kBatch], x1[kBatch], y1[kBatch];
   std::int64_t gx[kBatch];
@@ -64,38 +64,37 @@ struct alignas(64) FrameBatch {
   PixelBox box(int k) const { return {x0[k], y0[k], x1[k], y1[k]}; }
   // Depth in row y, at the first pixel of the cell that holds pixel x. Both lie in the box.
   HWY_INLINE std::uint32_t z_in_cell(int k, int x, int y) const {
-    const int cell = x & -kDepthCell;
+    const int cell_x = x & -kDepthCell;
     const std::uint32_t down = as_unsigned(zy[k]);
-    if (cell <= x0[k]) return as_unsigned(z0[k]) + as_unsigned(y - y0[k]) * down;
+    if (cell_x <= x0[k])  // the box's first cell
+      return as_unsigned(z0[k]) + as_unsigned(y - y0[k]) * down;
     const std::uint64_t base =
-        as_unsigned(origin[k]) + as_unsigned(gx[k]) * (std::uint64_t{as_unsigned(cell)} << kFineBits);
+        as_unsigned(origin[k]) + as_unsigned(gx[k]) * (std::uint64_t{as_unsigned(cell_x)} << kFineBits);
     return static_cast<std::uint32_t>(base >> kPlaneBits) + as_unsigned(y % kDepthCell) * down;
   }
 
   // Stores a vector of triangles as entries k … Returns the bits of those that are drawn.
   template <class G>
-  HWY_INLINE std::uint32_t store_vector(const TriangleLanes64<G>& t, const BoxLanes& in_area,
-                                        const Area& area, const FrameTask& task, const std::uint32_t* indices,
-                                        int k) {
+  HWY_INLINE std::uint32_t store_vector(const TriangleLanes64<G>& t, const BoxLanes& boxes, const Area& area,
+                                        const FrameTask& task, const std::uint32_t* indices, int k) {
     const D64 d;
-    const int row_of_cells = task.area.y0 & -kDepthCell;
-    const DepthLanes<G> depth = depth_lanes(t, area, 0, row_of_cells);
-    store(in_area.x0, x0 + k), store(in_area.y0, y0 + k);
-    store(in_area.x1, x1 + k), store(in_area.y1, y1 + k);
+    const int cell_y = task.region.y0 & -kDepthCell;
+    const DepthLanes<G> depth = depth_lanes(t, area, 0, cell_y);
+    store(boxes.x0, x0 + k), store(boxes.y0, y0 + k);
+    store(boxes.x1, x1 + k), store(boxes.y1, y1 + k);
     hn::StoreU(depth.gx, d, gx + k), hn::StoreU(hn::ShiftLeft<G::kSpareBits>(depth.start), d, origin + k);
     store(depth.x, zx + k), store(depth.y, zy + k);
-    const V in_cells = hn::And(in_area.y0, set32(kDepthCell - 1));
-    const V64 base = hn::Add(
-        depth.start,
-        wrapped_product(depth.gx, hn::ShiftLeft<G::kSubBits>(hn::And(in_area.x0, set32(-kDepthCell)))));
-    store(hn::Add(lower(shift_right<G::kPlaneBits>(base)), hn::Mul(depth.y, in_cells)), z0 + k);
-    const std::uint32_t drawn = may_cover(in_area, area);
+    const V row_in_cell = hn::And(boxes.y0, set32(kDepthCell - 1));
+    const V64 base =
+        hn::Add(depth.start,
+                wrapped_product(depth.gx, hn::ShiftLeft<G::kSubBits>(hn::And(boxes.x0, set32(-kDepthCell)))));
+    store(hn::Add(lower(shift_right<G::kPlaneBits>(base)), hn::Mul(depth.y, row_in_cell)), z0 + k);
+    const std::uint32_t drawn = may_cover(boxes, area);
     for (std::uint32_t left = drawn & ~mask_bits(depth.exact); left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left), i = k + lane;
       const DepthPlane exact = make_depth(orient(task.bins.triangles()[indices[lane]]));
       gx[i] = as_signed(exact.gx);
-      origin[i] =
-          as_signed(exact.origin + exact.gy * (std::uint64_t{as_unsigned(row_of_cells)} << kFineBits));
+      origin[i] = as_signed(exact.origin + exact.gy * (std::uint64_t{as_unsigned(cell_y)} << kFineBits));
       zx[i] = as_signed(exact.zx), zy[i] = as_signed(exact.zy),
       z0[i] = as_signed(exact.at(x0[i] & -kDepthCell, y0[i]));
     }
@@ -113,14 +112,15 @@ struct alignas(64) FrameBatch {
 // k), which sets up a vector of triangles as its entries k …, and draw(task, k, triangle).
 template <typename Batch>
 HWY_INLINE void draw_in_batches(const FrameTask& task) {
+  static_assert(Bins::kIndicesPerSegment <= kBatch);
   const ScreenTriangle* const triangles = task.bins.triangles();
   task.bins.for_each_segment(task.cell, [&](const Bins::Segment& segment) {
     Batch batch;
-    std::uint32_t left = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
+    std::uint32_t drawn = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
       return batch.set_up(task, padded + k, k);
     });
-    for (; left != 0; left &= left - 1) {
-      const int k = std::countr_zero(left);
+    for (; drawn != 0; drawn &= drawn - 1) {
+      const int k = std::countr_zero(drawn);
       batch.draw(task, k, triangles[segment.indices[static_cast<std::size_t>(k)]]);
     }
   });

@@ -21,19 +21,19 @@ inline constexpr int kLongestVector = 16;  // px
 struct FrameTask {
   const Bins& bins;
   int cell;
-  // Ends at kLongestVector or further right. Its rows lie in one row of depth cells; frame_edges takes at
-  // most 32 rows.
+  // Ends at kLongestVector or further right, unless the kernel is scalar. Its rows lie in one row of depth
+  // cells; frame_edges takes at most 32 rows.
   //
-  // The last vector of a row's pixels ends with the area. So it may begin left of the area, where it keeps
-  // what the frame holds. No other thread may draw there.
-  contract::PixelBox area;
-  FrameView frame;
+  // The last vector of a row's pixels ends with the region. So it may begin left of the region, where it
+  // keeps what the frame holds. No other thread may draw there.
+  contract::PixelBox region;
+  FrameView frame;  // FramePart::frame
 };
 using FrameKernel = void (*)(const FrameTask&);
 
 // Draws the triangles of a tile in a buffer sized for the L1 cache, and stores the buffer to the frame.
 struct TileTask {
-  const Bins* bins;
+  const Bins& bins;
   int cell;       // index of the tile in `bins`
   int x0, y0;     // px, the tile's first pixel; multiples of the tile's size
   int size_log2;  // px; at most 6
@@ -52,7 +52,7 @@ struct TileTask {
 };
 using TileKernel = void (*)(const TileTask&);
 
-// The fills. `target` must be resolved.
+// The fills, each defined at the end of the file of its name. `target` must be resolved.
 FrameKernel frame_boxes(SimdTarget target);  // tests all pixels of a triangle's box; the same for all targets
 FrameKernel frame_spans(SimdTarget target);
 FrameKernel frame_edges(SimdTarget target);

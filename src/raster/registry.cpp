@@ -17,16 +17,16 @@ namespace {
 using MakeBackend = std::unique_ptr<Backend> (*)();
 
 template <FrameKernel (*kFill)(SimdTarget)>
-constexpr MakeBackend kBands = [] { return make_bands(kFill); };
+constexpr MakeBackend kBands = [] { return band_backend(kFill); };
 
 template <TileKernel (*kFill)(SimdTarget), bool kHiZ, bool kMasks>
 constexpr MakeBackend kTiles =
-    [] { return make_tiles(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ}); };
+    [] { return tile_backend(kFill, {.coverage_masks = kMasks, .hierarchical_depth = kHiZ}); };
 
 }  // namespace
 
 std::unique_ptr<Backend> make_tiled(const TileOptions& options) {
-  return make_tiles(tile_edges, options, frame_spans);
+  return tile_backend(tile_edges, options, frame_spans);
 }
 
 #define EDGEWISE_DECLARE(name)                  \

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "core/execution.h"
 #include "core/parallel.h"
 #include "core/triangle_source.h"
 #include "raster/clear.h"
@@ -31,8 +32,7 @@ struct InFrame {
   const FrameKernel draw_light;  // null: no tile is light
 
   void operator()(const TileJob& job) const {
-    constexpr int kLeastSide = 16;
-    Interval intervals[contract::kMaxImageSide / kLeastSide / 2 + 1];  // of consecutive tiles
+    Interval intervals[contract::kMaxImageSide / kLeastTileSize / 2 + 1];  // of tiles; clears clip them
     std::size_t count = 0;
     const int side = 1 << grid.cell_w_log2;
     const auto for_each_tile = [&](auto&& visit) {  // visit(its first column, its cell, whether it is empty)
@@ -100,8 +100,8 @@ class Tiles final : public Backend {
     const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
     const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
     const bool large = part.clear && is_large(frame_bytes, llc_bytes());
-    const bool stream_tiles = is_streamed(part.clear && tiles_are_streamed(large, threads)),
-               stream_clears = is_streamed(large);
+    const bool stream_tiles = streaming_or(part.clear && tiles_are_streamed(large, threads)),
+               stream_clears = streaming_or(large);
     const bool with_light = light_ != nullptr && !stream_clears && frame.payload != nullptr;
     list_jobs(bins_, grid, part, threads, with_light, jobs_);
     const InFrame draw_in_frame{
@@ -112,7 +112,7 @@ class Tiles final : public Backend {
       if (job.cell == TileJob::kInFrame)
         draw_in_frame(job);
       else
-        fill({&bins_, job.cell, job.cell % grid.columns() << size_log2, job.row << size_log2, size_log2, part,
+        fill({bins_, job.cell, job.cell % grid.columns() << size_log2, job.row << size_log2, size_log2, part,
               options_.hierarchical_depth, stream_tiles});
     });
     return true;
@@ -122,8 +122,8 @@ class Tiles final : public Backend {
     StoredTriangles stored(triangles);
     draw_source(stored, part, execution);  // always true: stored triangles need no room
   }
-  bool is_streamed(bool if_automatic) const {
-    return options_.tile_store == TileStore::automatic ? if_automatic
+  bool streaming_or(bool automatic) const {
+    return options_.tile_store == TileStore::automatic ? automatic
                                                        : options_.tile_store == TileStore::streaming;
   }
 
@@ -136,8 +136,8 @@ class Tiles final : public Backend {
 
 }  // namespace
 
-std::unique_ptr<Backend> make_tiles(std::function<TileKernel(SimdTarget)> fill, const TileOptions& options,
-                                    FrameKernel (*light)(SimdTarget)) {
+std::unique_ptr<Backend> tile_backend(std::function<TileKernel(SimdTarget)> fill, const TileOptions& options,
+                                      FrameKernel (*light)(SimdTarget)) {
   return std::make_unique<Tiles>(std::move(fill), options, light);
 }
 

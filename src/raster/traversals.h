@@ -14,7 +14,7 @@
 namespace edgewise {
 
 // `fill` returns the kernel that draws a band.
-std::unique_ptr<Backend> make_bands(FrameKernel (*fill)(SimdTarget));
+std::unique_ptr<Backend> band_backend(FrameKernel (*fill)(SimdTarget));
 
 // How tiles are stored to the frame and cleared there. Streaming (non-temporal) stores save reading the
 // frame's old content and leave the caches to the triangles.
@@ -34,10 +34,10 @@ struct TileOptions {
   auto operator<=>(const TileOptions&) const = default;
 };
 
-// `fill` returns the kernel that draws a tile, `light` the one that draws light tiles. If `light` is null, or
-// clears are streamed, or the frame has no payload plane, no tile is light.
-std::unique_ptr<Backend> make_tiles(std::function<TileKernel(SimdTarget)> fill, const TileOptions& options,
-                                    FrameKernel (*light)(SimdTarget) = nullptr);
+// `fill` returns the kernel that draws a tile (lab/engine's has captures), `light` the one that draws light
+// tiles. If `light` is null, or clears are streamed, or the frame has no payload plane, no tile is light.
+std::unique_ptr<Backend> tile_backend(std::function<TileKernel(SimdTarget)> fill, const TileOptions& options,
+                                      FrameKernel (*light)(SimdTarget) = nullptr);
 
 // The backend `tiled`, with other options than its own.
 std::unique_ptr<Backend> make_tiled(const TileOptions& options);

@@ -27,7 +27,7 @@ TEST(TileStore, IsTheCallersChoiceOrStreamingIfTheFrameIsClearedOnOneThread) {
     const auto count_streamed = [](SimdTarget) -> TileKernel {
       return [](const TileTask& task) { streamed += task.streaming; };
     };
-    make_tiles(count_streamed, {.tile_store = store})
+    tile_backend(count_streamed, {.tile_store = store})
         ->draw({&all_over, 1}, frame.view(), {.clear = clear}, {threads, 64});
     return streamed.load();
   };

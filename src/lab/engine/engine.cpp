@@ -10,8 +10,8 @@
 namespace edgewise::lab {
 
 std::unique_ptr<Backend> make_engine(EngineArithmetic arithmetic) {
-  return make_tiles([arithmetic](SimdTarget target) { return engine_kernel(arithmetic, target); },
-                    {.coverage_masks = false});
+  return tile_backend([arithmetic](SimdTarget target) { return engine_kernel(arithmetic, target); },
+                      {.coverage_masks = false});
 }
 
 namespace {

@@ -31,7 +31,7 @@ std::uint32_t Bins::Slice::begin_segment(std::size_t cell, std::uint32_t end_of_
 
 inline void Bins::Slice::push(std::size_t cell, std::uint32_t index) {
   std::uint32_t slot = cursor[cell];
-  // The segment is full, or there is none yet: kNone has the same low bits.
+  static_assert(kNone % kSlotsPerSegment == kIndicesPerSegment);  // so no segment yet counts as a full one
   if (slot % kSlotsPerSegment == kIndicesPerSegment) [[unlikely]]
     slot = begin_segment(cell, slot);
   slots[slot] = index;
@@ -82,9 +82,9 @@ inline void Bins::Slice::bin(const ScreenTriangle& triangle, const CellBox& box,
 void Bins::Slice::append(const SortedPacket& sorted, std::size_t n, std::size_t end) {
   for (; n < end; ++n)
     for (unsigned left = sorted.quadrants[n]; left != 0; left &= left - 1) {
-      const auto w = static_cast<std::size_t>(std::countr_zero(left));
-      const std::uint32_t cell = sorted.second[w][n].field[3];
-      masks.append(cell, cursor[cell] + 1, sorted.first[w][n], sorted.second[w][n]);
+      const auto quadrant = static_cast<std::size_t>(std::countr_zero(left));
+      const std::uint32_t cell = sorted.second[quadrant][n].field[3];
+      masks.append(cell, cursor[cell] + 1, sorted.first[quadrant][n], sorted.second[quadrant][n]);
     }
 }
 

@@ -8,7 +8,7 @@
 namespace edgewise {
 
 struct CellGrid {
-  int width, height;             // px, the image
+  int width, height;             // px, where the drawn part of the image ends
   int cell_w_log2, cell_h_log2;  // px
   int x0 = 0, y0 = 0;            // px, the first column and row that are drawn
   int columns() const { return (width + (1 << cell_w_log2) - 1) >> cell_w_log2; }

@@ -61,8 +61,8 @@ HWY_INLINE hn::Mask<D> is_small(const GridTriangles<G>& t, const BoxLanes& box) 
   return hn::And(box.filled, hn::And(fits(box.x0, box.x1, t.x), fits(box.y0, box.y1, t.y)));
 }
 
-// The column at which an edge crosses a row, counted from the box's first sample, is stored plus 17. Rounded
-// down, that is 16 + the next column, in a float between 16 and 32, where bits 19 and up count whole columns.
+// The column at which an edge crosses a row, from the box's first sample, is stored plus 17 (2.5 as 19.5).
+// That rounds down to 16 + the next column. In a float from 16 to 32, bits 19 and up count whole columns.
 constexpr float kFirst = 16, kBefore = 17, kEnd = kFirst + kMaskSide + 1;
 static_assert(kEnd < 2 * kFirst);
 

@@ -26,8 +26,8 @@ struct alignas(16) CoverageMask {
   std::uint32_t block;       // position of the first pixel in the tile: 16 y + x, in blocks of 4 x 4 px
   std::uint32_t payload;
   std::uint32_t z, zx, zy;  // depth (rule 6) at the first pixel, and steps per pixel
-  // Where it stands among its cell's indices (bins.h): the slot after the last index that was there when it
-  // was appended, plus 1; 0 if there was none. So it is drawn before the index in slot s if rank <= s + 1.
+  // The next slot of its cell's indices (bins.h) when it was appended, plus 1; 0 if there were none. It is
+  // drawn before the index in slot s if rank <= s + 1.
   std::uint32_t rank;
 };
 static_assert(sizeof(CoverageMask) == 32);

@@ -30,8 +30,7 @@ template <class G>
 struct Planes {
   alignas(64) std::int32_t zx[Covering::kCapacity], zy[Covering::kCapacity];
   alignas(64) std::int64_t gx[Covering::kCapacity], gy[Covering::kCapacity];
-  alignas(64)
-      std::int64_t start[Covering::kCapacity];  // 2^kPlaneBits (depth at the first pixel of the cell + 1/2)
+  alignas(64) std::int64_t start[Covering::kCapacity];  // as DepthLanes::start
 
   // The base of the depth cell to the right, below, or both, less that of the triangle's first cell.
   std::uint32_t base_step(int k, std::uint32_t right, std::uint32_t below) const {
@@ -124,15 +123,15 @@ HWY_INLINE void cut_rows(V x0, V y0, const Cut& across, const Cut& down, const U
   }
 }
 
-// The cells of blocks, and their places in the cells, in bits as CoverageMask::block.
-HWY_INLINE void place(const CellGrid& grid, V bx, V by, V& cell, V& in_cell) {
+// The tiles of blocks, and their places in the tiles, in bits as CoverageMask::block.
+HWY_INLINE void place(const CellGrid& grid, V bx, V by, V& tile, V& in_tile) {
   const D d;
   const int across_log2 = grid.cell_w_log2 - 2, down_log2 = grid.cell_h_log2 - 2;
-  cell = hn::Add(hn::Mul(hn::ShiftRightSame(by, down_log2), hn::Set(d, grid.columns())),
+  tile = hn::Add(hn::Mul(hn::ShiftRightSame(by, down_log2), hn::Set(d, grid.columns())),
                  hn::ShiftRightSame(bx, across_log2));
   const V in_x = hn::And(bx, hn::Set(d, (1 << across_log2) - 1));
   const V in_y = hn::And(by, hn::Set(d, (1 << down_log2) - 1));
-  in_cell = hn::Add(hn::ShiftLeft<4>(in_y), in_x);
+  in_tile = hn::Add(hn::ShiftLeft<4>(in_y), in_x);
 }
 
 template <class G>
@@ -153,20 +152,20 @@ void cut_into_quadrants(const CellGrid& grid, const Covering& from, const Planes
     const V base = hn::ConcatEven(d, base_at(k + kLanes64), base_at(k));
     V present = hn::Zero(d);
     const auto live = hn::FirstN(d, static_cast<std::size_t>(from.count - k));
-    for (int w = 0; w < SortedPacket::kQuadrants; ++w) {
-      const auto filled = hn::And(live, hn::RebindMask(d, hn::Ne(rows[w][0] | rows[w][1], hn::Zero(DU{}))));
+    for (int q = 0; q < SortedPacket::kQuadrants; ++q) {
+      const auto filled = hn::And(live, hn::RebindMask(d, hn::Ne(rows[q][0] | rows[q][1], hn::Zero(DU{}))));
       if (hn::AllFalse(d, filled)) continue;
-      present = hn::Or(present, hn::IfThenElseZero(filled, hn::Set(d, 1 << w)));
-      const V bx = w & 1 ? across.second_block : across.block, by = w & 2 ? down.second_block : down.block;
-      V cell, in_cell;
-      place(grid, bx, by, cell, in_cell);
+      present = hn::Or(present, hn::IfThenElseZero(filled, hn::Set(d, 1 << q)));
+      const V bx = q & 1 ? across.second_block : across.block, by = q & 2 ? down.second_block : down.block;
+      V tile, in_tile;
+      place(grid, bx, by, tile, in_tile);
       const auto in_depth_cell = [&](V block) {
         return hn::ShiftLeft<2>(hn::And(block, hn::Set(d, kDepthCell / 4 - 1)));
       };
       const V z = hn::Add(base, hn::Add(hn::Mul(zx, in_depth_cell(bx)), hn::Mul(zy, in_depth_cell(by))));
-      hn::StoreInterleaved4(hn::BitCast(d, rows[w][0]), hn::BitCast(d, rows[w][1]), in_cell, payload, d,
-                            reinterpret_cast<std::int32_t*>(out.first[w] + k));
-      hn::StoreInterleaved4(z, zx, zy, cell, d, reinterpret_cast<std::int32_t*>(out.second[w] + k));
+      hn::StoreInterleaved4(hn::BitCast(d, rows[q][0]), hn::BitCast(d, rows[q][1]), in_tile, payload, d,
+                            reinterpret_cast<std::int32_t*>(out.first[q] + k));
+      hn::StoreInterleaved4(z, zx, zy, tile, d, reinterpret_cast<std::int32_t*>(out.second[q] + k));
       // A quadrant in another depth cell has another base.
       const auto leaves = [&](V from_block, V to_block) {
         const V same_cell = hn::ShiftRight<4>(hn::Xor(from_block, to_block));
@@ -175,7 +174,7 @@ void cut_into_quadrants(const CellGrid& grid, const Covering& from, const Planes
       const std::uint32_t to_right = leaves(across.block, bx), to_below = leaves(down.block, by);
       for (std::uint32_t left = to_right | to_below; left != 0; left &= left - 1) {
         const int lane = std::countr_zero(left);
-        out.second[w][k + lane].field[0] +=
+        out.second[q][k + lane].field[0] +=
             planes.base_step(k + lane, to_right >> lane & 1, to_below >> lane & 1);
       }
     }

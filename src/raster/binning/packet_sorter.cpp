@@ -1,4 +1,4 @@
-// The kernel that sorts triangles for binning, and turns small ones into coverage masks.
+// The kernel that sorts triangles for binning: they get cell boxes, but small ones become coverage masks.
 //
 // 1. Binning reads triangles in the order of memory. A tile kernel reads them tile by tile, from all over
 //    memory, and waits for it. So the coverage of small triangles is found here, and stored in the tiles'
@@ -83,7 +83,7 @@ bool sort_on_grid(const ScreenTriangle* triangles, const CellGrid& grid, bool wi
 }
 
 void sort_packet(const ScreenTriangle* triangles, const CellGrid& grid, bool with_masks, SortedPacket& out) {
-  out.fine = out.fine || !sort_on_grid<Coarse>(triangles, grid, with_masks, out);
+  out.fine = out.fine || !sort_on_grid<Coarse>(triangles, grid, with_masks, out);  // a slice stays fine
   if (out.fine) sort_on_grid<Fine>(triangles, grid, with_masks, out);
 }
 

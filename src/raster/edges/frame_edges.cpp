@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-// Shifted edge values (rule 5) of a vector of pixels, stepped from row to row. `first`: at the pixels'
-// position 0; a, b: the steps to the right and down.
+// Shifted edge values (rule 5) of a vector of pixels, stepped from row to row; sign_bit() has their signs.
+// `first`: at the pixels' position 0; a, b: the steps to the right and down.
 //
 // For steps of at most kShort, that is, on the coarse grid always, a first value may be clamped to kLimit. In
 // a depth cell and a vector of pixels beside it, 79 px to the side and 32 down, values change by at most 111
@@ -34,7 +34,7 @@ struct ShortEdge {
     value =
         hn::Add(hn::Set(D{}, static_cast<std::int32_t>(first)), hn::Mul(counting_from(px), hn::Set(D{}, a)));
   }
-  HWY_INLINE V sign() const { return value; }
+  HWY_INLINE V sign_bit() const { return value; }
   HWY_INLINE void next() { value = hn::Add(value, down); }
 };
 // Any steps: a value is 2^31 high + low, 0 <= low < 2^31.
@@ -50,7 +50,7 @@ struct LongEdge {
     }
     high = hn::Load(D{}, highs), low = hn::Load(D{}, lows);
   }
-  HWY_INLINE V sign() const { return high; }
+  HWY_INLINE V sign_bit() const { return high; }
   HWY_INLINE void next() {
     low = hn::Add(low, down_low);  // wraps if it exceeds 31 bits
     high = hn::Sub(hn::Add(high, down_high), hn::ShiftRight<31>(low));
@@ -63,17 +63,17 @@ struct FrameEdges : FrameBatch {
   struct {
     std::int64_t first[kBatch];    // biased value (rule 4) at the box's first sample
     std::int32_t clamped[kBatch];  // the same for ShortEdge: shifted (rule 5) and clamped, a vector at once
-    std::int32_t a[kBatch], b[kBatch];  // steps per sub-unit
+    std::int32_t a[kBatch], b[kBatch];  // steps of shifted values per pixel
   } edge[3];
   std::uint32_t is_long = 0;  // bit k: triangle k has an edge for LongEdge
 
   HWY_INLINE std::uint32_t set_up(const FrameTask& task, const std::uint32_t* indices, int k) {
     const auto t = load<G>(task.bins.triangles(), indices);
-    const BoxLanes in_area(t, task.area);
+    const BoxLanes boxes(t, task.region);
     const Area area = area_of(t);
-    V longest = hn::Zero(D{});
+    V longest = hn::Zero(D{});  // unused on the coarse grid
     for (int i = 0; i < 3; ++i) {
-      const EdgeLanes lanes(t, area, i, sample<G>(in_area.x0), sample<G>(in_area.y0));
+      const EdgeLanes lanes(t, area, i, sample<G>(boxes.x0), sample<G>(boxes.y0));
       const V64 limit = hn::Set(D64{}, kLimit), shifted = hn::ShiftRight<G::kSubBits>(lanes.value);
       hn::StoreU(lanes.value, D64{}, edge[i].first + k);
       store(lower(hn::Min(hn::Max(shifted, hn::Neg(limit)), limit)), edge[i].clamped + k);
@@ -81,23 +81,23 @@ struct FrameEdges : FrameBatch {
       longest = hn::Max(longest, hn::Max(hn::Abs(lanes.a), hn::Abs(lanes.b)));
     }
     if constexpr (std::is_same_v<G, Fine>) is_long |= lower_bits(hn::Gt(longest, hn::Set(D{}, kShort))) << k;
-    return store_vector(t, in_area, area, task, indices, k);
+    return store_vector(t, boxes, area, task, indices, k);
   }
 
   HWY_INLINE void draw(const FrameTask& task, int k, const ScreenTriangle& triangle) const {
     count(Part::frame_edges);
     if constexpr (std::is_same_v<G, Fine>)
-      if (is_long >> k & 1) return draw_pieces<LongEdge>(task, k, triangle.payload);
-    draw_pieces<ShortEdge>(task, k, triangle.payload);
+      if (is_long >> k & 1) return draw_cells<LongEdge>(task, k, triangle.payload);
+    draw_cells<ShortEdge>(task, k, triangle.payload);
   }
 
  private:
   // Draws the parts of the triangle's box that lie in one depth cell (rule 6) each.
   template <class EdgeOfPixels>
-  HWY_INLINE void draw_pieces(const FrameTask& task, int k, std::uint32_t payload) const {
+  HWY_INLINE void draw_cells(const FrameTask& task, int k, std::uint32_t payload) const {
     for (int x = x0[k], end; x < x1[k]; x = end) {
       end = std::min(x1[k], (x & -kDepthCell) + kDepthCell);
-      draw_piece<EdgeOfPixels>(task, k, x, end, payload);
+      draw_cell<EdgeOfPixels>(task, k, x, end, payload);
     }
   }
   // The first value of edge i at pixel x.
@@ -110,27 +110,27 @@ struct FrameEdges : FrameBatch {
   }
   // Draws pixels begin … end - 1 of the box's rows, column by column of vectors.
   template <class EdgeOfPixels>
-  HWY_INLINE void draw_piece(const FrameTask& task, int k, int begin, int end, std::uint32_t payload) const {
+  HWY_INLINE void draw_cell(const FrameTask& task, int k, int begin, int end, std::uint32_t payload) const {
     const D d;
-    const V lane = hn::Iota(d, 0), colour = set(payload), z_right = hn::Set(d, zx[k]),
+    const V lane = hn::Iota(d, 0), payloads = set(payload), z_right = hn::Set(d, zx[k]),
             z_down = hn::Set(d, zy[k]);
-    const V z_in_first = set(z_in_cell(k, begin, y0[k])), cell = hn::Set(d, begin & -kDepthCell);
+    const V z_in_first = set(z_in_cell(k, begin, y0[k])), cell_x = hn::Set(d, begin & -kDepthCell);
     std::int64_t first[3];
     for (int i = 0; i < 3; ++i) first[i] = first_at<EdgeOfPixels>(i, k, begin);
     for (int x = begin; x < end; x += kLanes) {
-      const int at = vector_from(x, task.area.x1);
+      const int at = vector_from(x, task.region.x1);
       const V px = hn::Add(lane, hn::Set(d, at));
-      const auto in_piece = between(x, px, end);
+      const auto in_range = between(x, px, end);
       const auto edge_at = [&](int i) {
         return EdgeOfPixels(first[i], edge[i].a[k], edge[i].b[k], at - begin);
       };
       EdgeOfPixels value[3] = {edge_at(0), edge_at(1), edge_at(2)};
-      V z = hn::Add(z_in_first, hn::Mul(hn::Sub(px, cell), z_right));
+      V z = hn::Add(z_in_first, hn::Mul(hn::Sub(px, cell_x), z_right));
       FrameRow row(task.frame, y0[k]);
       for (int y = y0[k]; y < y1[k]; ++y) {
-        const V any_negative = hn::Or(hn::Or(value[0].sign(), value[1].sign()), value[2].sign());
-        const auto covered = hn::And(in_piece, hn::Gt(any_negative, hn::Set(d, -1)));
-        write(row.depth + at, row.payload + at, covered, z, colour);
+        const V any_negative = hn::Or(hn::Or(value[0].sign_bit(), value[1].sign_bit()), value[2].sign_bit());
+        const auto covered = hn::And(in_range, hn::Gt(any_negative, hn::Set(d, -1)));
+        write(row.depth + at, row.payload + at, covered, z, payloads);
         for (EdgeOfPixels& v : value) v.next();
         z = hn::Add(z, z_down);
         row.depth += task.frame.stride, row.payload += task.frame.stride;

@@ -1,4 +1,4 @@
-// The tile's buffer, and the drawing of small triangles.
+// The tile's buffer, and the drawing of triangles of at most 4 x 4 blocks.
 //
 // The buffer stores blocks of 4 x 4 pixels, each as 16 consecutive integers: one AVX-512 vector, two of AVX2,
 // four of SSE4 or NEON.
@@ -34,8 +34,8 @@ alignas(64) constexpr std::int32_t kLaneY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 
 
 class Tile {
  public:
-  // Block by block. A coverage mask at the end of a plane also reads and writes back blocks behind the plane:
-  // the first payload blocks, or kSpare.
+  // Block by block. A coverage mask at a side also reads blocks beyond it, where it has no bits, and writes
+  // them back: the first of the next row, or behind the plane the first payload blocks, or kSpare.
   HWY_INLINE std::int32_t* depth() { return planes_; }
   HWY_INLINE std::int32_t* payload() { return planes_ + kPixels; }
 
@@ -99,19 +99,19 @@ struct List {
   }
 };
 
-// Triangles whose boxes are at most 4 x 4 blocks. All blocks of a triangle are tested at once, one lane per
-// block. The candidate blocks of many triangles go into one list: the number per triangle is hard to predict
-// for a branch predictor, but a loop over a list is not.
+// Triangles whose boxes lie in a square of 4 x 4 blocks. All blocks of a triangle are tested at once, one
+// lane per block. The candidate blocks of many triangles go into one list: the number per triangle is hard to
+// predict for a branch predictor, but a loop over a list is not.
 template <class Numbers>
-class SmallTriangles {
+class BlockSquares {
  public:
   static constexpr int kSide = 4;  // blocks
-  explicit SmallTriangles(Tile& tile) : tile_(tile) {}
+  explicit BlockSquares(Tile& tile) : tile_(tile) {}
 
   HWY_INLINE void add(const Batch<Numbers>& batch, int k) {
     const D d;
     if (used_ == kSlots) draw();
-    const int slot = used_++ * kBlockPixels;
+    const int slot = used_++, in_slots = slot * kBlockPixels;
     const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]),
             last_row = hn::Set(d, batch.by1[k] - batch.by0[k]);
     const Values16<Numbers> edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
@@ -122,8 +122,8 @@ class SmallTriangles {
       // The blocks of the square are arranged like the pixels of a block, at four times the distance.
       const auto store_values = [&](auto numbers, auto offset, auto first, auto& values) {
         const auto at = numbers.add(numbers.set(first), numbers.four_times(offset));
-        numbers.store_values(offset, values.in_block + slot + lane);
-        numbers.store_values(at, values.at_block + slot + lane);
+        numbers.store_values(offset, values.in_block + in_slots + lane);
+        numbers.store_values(at, values.at_block + in_slots + lane);
         return at;
       };
       const auto largest_in_block = [&](int i) {
@@ -137,9 +137,9 @@ class SmallTriangles {
           not_negative(Numbers::any_negative(largest_in_block(0), largest_in_block(1), largest_in_block(2)));
       const V block = hn::Add(hn::Mul(row, hn::Set(d, kMaxBlocks)), column);
       const V entry = hn::Add(hn::ShiftLeft<16>(block), counting_from(lane));
-      list_.append(hn::Add(entry, hn::Set(d, first_block << 16 | slot)), hn::AndNot(beside, candidate));
+      list_.append(hn::Add(entry, hn::Set(d, first_block << 16 | in_slots)), hn::AndNot(beside, candidate));
     }
-    payload_[slot / kBlockPixels] = batch.payload[k];
+    payload_[slot] = batch.payload[k];
   }
 
   HWY_INLINE void draw() {

@@ -1,4 +1,4 @@
-// Draws triangles by edge functions, in a tile's buffer.
+// Draws triangles by edge functions, in a tile's buffer. frame_spans draws light tiles (raster/policy.h).
 //
 // 1. Depth and payload of the tile live in a buffer of 32 KB. With its lists a tile uses about 46 KB, which
 //    fits an L1 cache of 48 KB; with one of 32 KB, part of it lies in L2. The buffer is stored to the frame
@@ -30,7 +30,7 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 void draw_edges_in_tile(const TileTask& task) {
-  task.bins->fine() ? draw_tile_in<ContractNumbers<Fine>>(task) : draw_tile_in<ContractNumbers<Coarse>>(task);
+  task.bins.fine() ? draw_tile_in<ContractNumbers<Fine>>(task) : draw_tile_in<ContractNumbers<Coarse>>(task);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -49,7 +49,7 @@ inline std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks, s
     const CoverageMask& mask = masks[n];
     const V zx = hn::Set(d, wrap(mask.zx)), zy = hn::Set(d, wrap(mask.zy));
     const V z0 = hn::Set(d, wrap(mask.z)), payload = hn::Set(d, wrap(mask.payload));
-    const V right = hn::ShiftLeft<2>(zx), down = hn::ShiftLeft<2>(zy);
+    const V z_right = hn::ShiftLeft<2>(zx), z_down = hn::ShiftLeft<2>(zy);
     const V rows[2] = {hn::Set(d, wrap(mask.covered[0])), hn::Set(d, wrap(mask.covered[1]))};
     for (int p = 0; p < kBlockPixels; p += kLanes) {
       const V left_bits = hn::Load(d, kMaskBits.data() + p),
@@ -58,8 +58,8 @@ inline std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks, s
       int at = static_cast<int>(mask.block) * kBlockPixels + p;
       for (int y = 0; y < 2; ++y) {
         depth_test(tile, at, hn::TestBit(rows[y], left_bits), z, payload);
-        depth_test(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right), payload);
-        z = hn::Add(z, down);
+        depth_test(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, z_right), payload);
+        z = hn::Add(z, z_down);
         at += kMaxBlocks * kBlockPixels;
       }
     }
@@ -70,33 +70,33 @@ inline std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks, s
 
 // Draws a tile's triangles and coverage masks in submission order.
 //
-// Blocks are drawn in loops over lists, so two queues hold back work: `small_`, and `waiting_`, the candidate
-// blocks of the last large triangle. At most one of them holds work: each is drawn before work is added to
-// the other, and both are drawn before masks.
+// Blocks are drawn in loops over lists, so two queues hold back work: `squares_`, and `waiting_`, the
+// candidate blocks of the last large triangle. At most one of them holds work: each is drawn before work is
+// added to the other, and both are drawn before masks.
 template <class Numbers>
 class TilePainter {
  public:
   TilePainter(const TileTask& task, Tile& tile)
       : task_(task),
         tile_(tile),
-        small_(tile),
-        masks_(*task.bins, task.cell),
+        squares_(tile),
+        mask_reader_(task.bins, task.cell),
         zmax_is_stale_(!task.part.clear && task.hierarchical_depth) {}
 
   void draw_segment(const Bins::Segment& segment) {
-    std::uint32_t left = set_up_batch(segment.indices, [&](const std::uint32_t* indices, int k) {
+    std::uint32_t drawn = set_up_batch(segment.indices, [&](const std::uint32_t* indices, int k) {
       return set_up_vector(task_, indices + k, batch_, k);
     });
-    for (; left != 0; left &= left - 1) {
-      const int k = std::countr_zero(left);
-      masks_.draw_before(segment, static_cast<std::size_t>(k), draw_masks_);
+    for (; drawn != 0; drawn &= drawn - 1) {
+      const int k = std::countr_zero(drawn);
+      mask_reader_.draw_before(segment, static_cast<std::size_t>(k), draw_lists_then_masks_);
       const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
-      if (std::max(width, height) <= SmallTriangles<Numbers>::kSide && !batch_.is_long(k)) {
+      if (std::max(width, height) <= BlockSquares<Numbers>::kSide && !batch_.is_long(k)) {
         draw_waiting();
         count(Part::tile_edges);
-        small_.add(batch_, k);
+        squares_.add(batch_, k);
       } else {
-        small_.draw();
+        squares_.draw();
         add_large(k, width);
       }
     }
@@ -104,16 +104,16 @@ class TilePainter {
   }
 
   void draw_rest() {
-    small_.draw();
-    masks_.draw_rest(draw_masks_);
+    squares_.draw();
+    mask_reader_.draw_rest(draw_lists_then_masks_);
   }
 
  private:
-  struct DrawMasks {
+  struct DrawListsThenMasks {
     TilePainter& painter;
     std::size_t operator()(std::span<const CoverageMask> masks, std::uint32_t last) const {
       painter.draw_waiting();
-      painter.small_.draw();
+      painter.squares_.draw();
       return draw_masks(painter.tile_, masks, last);
     }
   };
@@ -123,8 +123,8 @@ class TilePainter {
     waiting_ = nullptr;
   }
 
-  // Draws the previous triangle's list after this one's is filled, so its length is known long before its
-  // loop begins.
+  // Fills this triangle's list, then draws the previous one's: a list's length is known long before the loop
+  // over it begins.
   HWY_INLINE void add_large(int k, int width) {
     if (zmax_is_stale_) [[unlikely]]
       zmax_is_stale_ = false, has_occluders_ = load_hiz(task_, tile_);
@@ -151,13 +151,13 @@ class TilePainter {
   const TileTask& task_;
   Tile& tile_;
   Batch<Numbers> batch_;
-  SmallTriangles<Numbers> small_;
+  BlockSquares<Numbers> squares_;
   Candidates candidates_[2];  // one is filled while the other waits
   const Candidates* waiting_ = nullptr;
-  Bins::MaskReader masks_;
-  const DrawMasks draw_masks_{*this};
-  bool has_occluders_ = false;  // the zmax of a block is nearer than kDepthClear
-  bool zmax_is_stale_;          // it is not that of the loaded depths
+  Bins::MaskReader mask_reader_;
+  const DrawListsThenMasks draw_lists_then_masks_{*this};
+  bool has_occluders_ = false;  // some block may have a zmax nearer than kDepthClear
+  bool zmax_is_stale_;          // no zmax is that of the loaded depths yet
 };
 
 template <class Numbers>
@@ -172,8 +172,7 @@ void draw_tile_in(const TileTask& task) {
   tile.hiz.clear(task.width(), task.height());
 
   TilePainter<Numbers> painter(task, tile);
-  task.bins->for_each_segment(task.cell,
-                              [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
+  task.bins.for_each_segment(task.cell, [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
   painter.draw_rest();
   write_tile(task, tile.depth(), tile.payload(),
              [](const FramePlane& to, const auto& pixels) { write_blocks(to, pixels); });

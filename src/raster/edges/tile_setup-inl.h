@@ -226,11 +226,11 @@ template <class Numbers>
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices,
                                        Batch<Numbers>& out, int k) {
   using G = typename Numbers::Grid;
-  const auto t = load<G>(task.bins->triangles(), indices);
+  const auto t = load<G>(task.bins.triangles(), indices);
   const Area area = area_of(t);
   const BoxLanes box(t, task.box());
   const auto block = [](V32 px, int first_px) { return hn::ShiftRight<2>(hn::Sub(px, set32(first_px))); };
-  const V32 bx0 = block(box.x0, task.x0), bx1 = block(box.x1, task.x0 + 1);
+  const V32 bx0 = block(box.x0, task.x0), bx1 = block(box.x1, task.x0 + 1);  // of pixel box.x1 - 1
   const V32 by0 = block(box.y0, task.y0), by1 = block(box.y1, task.y0 + 1);
   const V32 left = hn::ShiftLeft<2>(bx0), top = hn::ShiftLeft<2>(by0);
   const auto last = [](V32 b0, V32 b1) {
@@ -246,7 +246,7 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   store(bx0, out.bx0 + k), store(by0, out.by0 + k), store(bx1, out.bx1 + k), store(by1, out.by1 + k);
   for (std::uint32_t inexact = drawn & ~exact; inexact != 0; inexact &= inexact - 1) {
     const int lane = std::countr_zero(inexact), at = k + lane;
-    const ScreenTriangle& triangle = task.bins->triangles()[indices[lane]];
+    const ScreenTriangle& triangle = task.bins.triangles()[indices[lane]];
     const DepthPlane plane = make_depth(orient(triangle));
     const std::uint32_t zx = plane.zx, zy = plane.zy;
     out.depth.x[at] = wrap(zx), out.depth.y[at] = wrap(zy);

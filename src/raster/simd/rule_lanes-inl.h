@@ -1,4 +1,4 @@
-// Rules of the contract in vectors, one triangle per lane of 32 bits. G is the grid (core/grid.h).
+// Rules of the contract in vectors, one triangle per lane of 32 bits or 64. G is the grid (core/grid.h).
 #include <hwy/highway.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Triangles in vectors, one 64-bit lane per triangle. Values that fit 32 bits (rule 3) lie in the lane's
-// lower half, so that one instruction multiplies two of them to a 64-bit product. G is the grid
-// (core/grid.h).
+// lower half, so that one instruction multiplies two of them to a 64-bit product. The upper half is
+// unspecified unless stated. G is the grid (core/grid.h).
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D64 = hn::CappedTag<std::int64_t, 8>;
 using U64 = hn::RebindToUnsigned<D64>;
 using F64 = hn::RebindToFloat<D64>;
-using D32 = D;  // two lanes per triangle, of which only the lower one is used; one for the scalar target
+using D32 = D;  // two lanes per triangle; one for the scalar target
 using V64 = hn::Vec<D64>;
 using V32 = hn::Vec<D32>;
 using Packed = hn::Rebind<std::int32_t, D64>;  // one 32-bit lane per triangle
@@ -52,7 +52,7 @@ HWY_INLINE hn::Vec<Packed> packed(V32 v) {
 HWY_INLINE V32 lower(V64 v) {
   return hn::BitCast(D32{}, v);
 }
-HWY_INLINE V64 as64(V32 v) {  // the upper half is unspecified
+HWY_INLINE V64 as64(V32 v) {  // the upper half is v's
   return hn::BitCast(D64{}, v);
 }
 HWY_INLINE hn::Vec<Packed> packed(V32 v) {
@@ -110,10 +110,10 @@ HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
   return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(D64{})));
 }
 
-// kLanes64 triangles. Each fills both halves of its lane.
+// kLanes64 triangles.
 template <class G>
 struct TriangleLanes64 : GridTriangles<G> {};
-// Loads the triangles with these indices.
+// Loads the triangles with these indices, each in both halves of its lane.
 template <class G>
 HWY_INLINE TriangleLanes64<G> load(const ScreenTriangle* triangles, const std::uint32_t* index) {
   return {GridTriangles<G>(

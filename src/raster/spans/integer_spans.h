@@ -38,13 +38,13 @@ void for_each_span(const contract::Oriented& t, const contract::PixelBox& box, S
 
 // Fills pixels [begin, end) of a row where they are nearer. Stores unconditionally, so that compilers
 // vectorise it.
-inline void fill_span(std::int32_t* depth, std::int32_t* payload, int begin, int end, std::uint32_t z,
-                      std::uint32_t zx, std::uint32_t colour) {
+inline void fill_span(std::int32_t* depths, std::int32_t* payloads, int begin, int end, std::uint32_t z,
+                      std::uint32_t zx, std::uint32_t payload) {
   for (int x = begin; x < end; ++x) {
     const auto z_here = static_cast<std::int32_t>(z + static_cast<std::uint32_t>(x) * zx);
-    const bool nearer = z_here < depth[x];
-    depth[x] = nearer ? z_here : depth[x];
-    payload[x] = nearer ? static_cast<std::int32_t>(colour) : payload[x];
+    const bool nearer = z_here < depths[x];
+    depths[x] = nearer ? z_here : depths[x];
+    payloads[x] = nearer ? static_cast<std::int32_t>(payload) : payloads[x];
   }
 }
 

@@ -1,8 +1,8 @@
-// The edges of a vector of triangles as lines that are stepped row by row, to find spans in an area of a
+// The edges of a vector of triangles as lines that are stepped row by row, to find spans in a region of a
 // frame: a tile of 64 x 64 px, or 32 rows of any width.
 //
 // Where a row's sample lies at height s, the edge from p to q is at x = p.x + (s - p.y) dx / dy. The first
-// pixel whose sample is not left of it is the ceiling of v = (x - 128) / 256. A span goes from the largest of
+// pixel whose sample is not left of it is the ceiling of v = x - 1/2 px. A span goes from the largest of
 // these pixels of the left edges to the smallest of the right ones, over the rows whose samples lie in the
 // triangle's box. It is half open in both directions, which is the top-left rule (rule 4). Past its end, an
 // edge's line does not cut into the triangle, so every row uses all edges.
@@ -17,9 +17,9 @@
 // - Steps per row below 2^12 px = 2^55 units are off by 2^-52 of that, and 1 for rounding: over 63 rows,
 //   below 575 units.
 // - A start within 2^18 + 2^15 px (2^61.2 units) of the edge's vertex is off by 3/2 2^-52 of that: below 870.
-//   A line that starts farther away does not reach the area in its rows, not even with its start clamped to
+//   A line that starts farther away does not reach the region in its rows, not even with its start clamped to
 //   2^18 + 2^17 px.
-// - Start, steps and the at most 2^15 px from vertex to area sum up to less than 2^20 px = 2^63 units.
+// - Start, steps and the at most 2^15 px from vertex to region sum up to less than 2^20 px = 2^63 units.
 // An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. The spans of its
 // triangle are found by integer divisions (raster/spans/integer_spans.h). proofs/spans.smt2 proves these
 // claims.
@@ -69,7 +69,7 @@ HWY_INLINE V64 to_units(hn::Vec<F64> v) {
 struct LineLanes {
   V64 at;                 // on the first row, in units: w above, whose floor is the first pixel
   V64 step;               // per row
-  V32 is_left, is_right;  // -1 for edges on that side of the triangle; 0 for both if horizontal
+  V32 is_left, is_right;  // edges on that side of the triangle: -1, both halves; 0 for both if horizontal
   hn::Mask<D64> flat;     // too flat: needs the integer walk
 };
 template <class G>
@@ -139,7 +139,7 @@ HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes64<G>& t, const Area& ar
 }
 
 // Calls span(y, begin, end) for each row of triangle k's box, whose first row is that of the lines: the
-// triangle covers the box's pixels begin … end - 1, and none if begin >= end.
+// triangle covers the box's pixels begin … end - 1, and none if begin >= end. Requires left <= box.x0.
 template <class G, typename Span>
 HWY_INLINE void for_each_line_span(const BatchLine<G> (&line)[3], int k, int left, const PixelBox& box,
                                    Span&& span) {
@@ -158,7 +158,7 @@ HWY_INLINE void for_each_line_span(const BatchLine<G> (&line)[3], int k, int lef
     for (int i = 0; i < 3; ++i) {  // no branches: sides are hard to predict
       auto pixel = static_cast<int>(at[i] >> kUnitBits);
       if constexpr (std::is_same_v<G, Fine>) {
-        pixel += value[i] + std::int64_t{to_right[i]} * pixel < 0;
+        pixel += (value[i] + std::int64_t{to_right[i]} * pixel < 0);  // the next one if its sample is left
         value[i] += down[i];
       }
       begin = std::max(begin, pixel & is_left[i]);

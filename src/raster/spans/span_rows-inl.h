@@ -44,7 +44,7 @@ struct SpanBatch {
 template <class G>
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch<G>& out,
                                        int k) {
-  const auto t = load<G>(task.bins->triangles(), indices);
+  const auto t = load<G>(task.bins.triangles(), indices);
   const BoxLanes box(t, task.box());
   const V32 x0 = hn::Sub(box.x0, set32(task.x0)), x1 = hn::Sub(box.x1, set32(task.x0));
   const V32 y0 = hn::Sub(box.y0, set32(task.y0)), y1 = hn::Sub(box.y1, set32(task.y0));

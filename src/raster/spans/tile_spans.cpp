@@ -39,20 +39,20 @@ template <class G>
 class SpanPainter {
  public:
   explicit SpanPainter(const TileTask& task)
-      : task_(task), list_(tile_, task.hierarchical_depth), masks_(*task.bins, task.cell) {
+      : task_(task), list_(tile_, task.hierarchical_depth), mask_reader_(task.bins, task.cell) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
     read_tile(task, tile_.depth, tile_.payload, read_rows);
     tile_.hiz.clear(task.width(), task.height());
   }
   void draw(const Bins::Segment& segment) {
     batch_.by_integers = 0;
-    std::uint32_t left = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
+    std::uint32_t drawn = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
       return set_up_vector(task_, padded + k, batch_, k);
     });
-    for (; left != 0; left &= left - 1) {
-      const int k = std::countr_zero(left);
+    for (; drawn != 0; drawn &= drawn - 1) {
+      const int k = std::countr_zero(drawn);
       const auto in_segment = static_cast<std::size_t>(k);
-      masks_.draw_before(segment, in_segment, draw_masks_);
+      mask_reader_.draw_before(segment, in_segment, draw_lists_then_masks_);
 #if HWY_TARGET != HWY_SCALAR
       if ((batch_.by_integers >> k & 1) == 0) {
         list_.add(batch_, k);
@@ -60,12 +60,12 @@ class SpanPainter {
       }
 #endif
       list_.draw();
-      draw_one(task_.bins->triangles()[segment.indices[in_segment]], k);
+      draw_one(task_.bins.triangles()[segment.indices[in_segment]], k);
     }
     list_.draw();
   }
   void draw_rest() {
-    masks_.draw_rest(draw_masks_);
+    mask_reader_.draw_rest(draw_lists_then_masks_);
   }
   const std::int32_t* depth() const {
     return tile_.depth;
@@ -75,7 +75,7 @@ class SpanPainter {
   }
 
  private:
-  struct DrawMasks {
+  struct DrawListsThenMasks {
     SpanPainter& painter;
     std::size_t operator()(std::span<const CoverageMask> masks, std::uint32_t last) const {
       painter.list_.draw();
@@ -104,8 +104,8 @@ class SpanPainter {
   const TileTask& task_;
   SpanTile tile_;
   SpanList<G> list_;
-  Bins::MaskReader masks_;
-  DrawMasks draw_masks_{*this};
+  Bins::MaskReader mask_reader_;
+  DrawListsThenMasks draw_lists_then_masks_{*this};
   SpanBatch<G> batch_;
 };
 
@@ -130,7 +130,7 @@ void write_rows(const FramePlane& to, const Pixels& pixels) {
 template <class G>
 void draw_spans_on_grid(const TileTask& task) {
   SpanPainter<G> painter(task);
-  task.bins->for_each_segment(task.cell, [&](const Bins::Segment& segment) { painter.draw(segment); });
+  task.bins.for_each_segment(task.cell, [&](const Bins::Segment& segment) { painter.draw(segment); });
   painter.draw_rest();
   write_tile(task, painter.depth(), painter.payload(),
              [](const FramePlane& to, const auto& pixels) { write_rows(to, pixels); });
@@ -138,7 +138,7 @@ void draw_spans_on_grid(const TileTask& task) {
 }
 
 void draw_spans_in_tile(const TileTask& task) {
-  task.bins->fine() ? draw_spans_on_grid<Fine>(task) : draw_spans_on_grid<Coarse>(task);
+  task.bins.fine() ? draw_spans_on_grid<Fine>(task) : draw_spans_on_grid<Coarse>(task);
 }
 
 }  // namespace HWY_NAMESPACE
