@@ -31,10 +31,9 @@ HWY_INLINE void fill_run(const FrameTask& task, const FrameRow& row, int x, int 
     return hn::Add(set(z_in_cell + static_cast<std::uint32_t>(at - cell_x) * zx), z_in_vector);
   };
   if (x + kLanes <= end) {
-    const auto all = hn::Eq(lane, lane);
     const V z_step = set(static_cast<std::uint32_t>(kLanes) * zx);
     for (V z = z_from(x); x + kLanes <= end; x += kLanes, z = hn::Add(z, z_step))
-      write(row.depth + x, row.payload + x, all, z, payload);
+      write(row.depth + x, row.payload + x, /*all*/ hn::Eq(lane, lane), z, payload);
   }
   if (x == end) return;
   const int at = vector_from(x, task.region.x1);
