@@ -81,7 +81,7 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   add("stability", "Find where each method starts to fail", add_stability);
   add("diff", "Compare two pictures, or two depth files", add_diff);
   add("portable", "Find the pixels that conformant rasterizers may draw differently", add_portable);
-  add("needs", "Find the least precise pipeline that draws a scene right", add_needs);
+  add("needs", "Find the least precise pipelines that draw a scene right", add_needs);
   add("capture", "Write a scene's screen triangles as a .tri stream", add_capture);
   add("view", "Explore a scene: move, switch methods, see errors", add_view, show_window);
   add("demo", "Show the tutorials that Edgewise grew from", add_demo, show_window);

@@ -302,22 +302,22 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
   EXPECT_EQ(error(2), "draws other pixels than its scalar form on one thread");
 }
 
-TEST(BenchPipelines, AreTimedInPairsWhereOneIsRight) {
+TEST(BenchPipelines, AreTimedBesideTheExactOne) {
   const TempDir folder;
   SuiteOptions options;
   options.needs = folder
                       .write("needs.json", R"([{"scene": "cubes", "width": 96, "height": 54, "scale": 1,
-      "pipeline": {"stages": [{"question": "visibility", "answer": "painter_mean"}]}},
-      {"scene": "cube", "width": 96, "height": 54, "scale": 1,
-      "pipeline": {"stages": [{"question": "pipeline", "answer": null}]}}])")
+      "tolerance_px": 9, "minima": [{"visibility": "painter_mean"}, {"facing test": "float_area"}]},
+      {"scene": "cube", "width": 96, "height": 54, "scale": 1, "tolerance_px": 0, "minima": []}])")
                       .string();
   Stage stage;
   std::map<std::string, std::string> errors;
   for (Row& row : make_suite(options))
     if (row.pipeline) stage.compare(row), errors[row.name] = row.error;
-  ASSERT_EQ(errors.size(), 2u);
+  ASSERT_EQ(errors.size(), 3u);
   EXPECT_EQ(errors.at("needs/cubes/pipeline:exact/threads:1"), "");
-  EXPECT_NE(errors.at("needs/cubes/pipeline:least/threads:1").find("pixels differ from the exact picture"),
+  EXPECT_EQ(errors.at("needs/cubes/pipeline:2/threads:1"), "");
+  EXPECT_NE(errors.at("needs/cubes/pipeline:1/threads:1").find("pixels differ from the exact picture"),
             std::string::npos);
 }
 
