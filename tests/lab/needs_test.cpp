@@ -477,7 +477,7 @@ void check_level(const Level& level, Stage stage, const std::vector<Scene>& scen
   EXPECT_EQ(level.farthest_squared_px, expected.farthest_squared_px) << level.name;
 }
 
-// Returns the least precise pipelines with at most 3 wrong pixels in a frame.
+// Returns the least precise pipelines with no wrong pixel.
 std::vector<Levels> check_minima(const std::vector<Scene>& scenes, Size size) {
   std::vector<Picture> truths;
   for (const Scene& scene : scenes)
@@ -500,7 +500,7 @@ std::vector<Levels> check_minima(const std::vector<Scene>& scenes, Size size) {
     for (const Curve& curve : needs.curves())
       for (const Level& level : curve.levels) check_level(level, curve.stage, scenes, truths, size);
   }
-  return least(worst, 3);
+  return least(worst, 0);
 }
 
 TEST(Needs, MinimaAndCurvesAreThoseOfBruteForce) {
@@ -518,7 +518,7 @@ TEST(Needs, MinimaAndCurvesAreThoseOfBruteForce) {
 TEST(Needs, AnOctahedronNeedsNoFacingTestIfItIsPainted) {
   const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   Scene scene =
-      scene_of({x, y, z, y, -x, z, -x, -y, z, -y, x, z, y, x, -z, -x, y, -z, -y, -x, -z, x, -y, -z});
+      scene_of({y, x, z, -x, y, z, -y, -x, z, x, -y, z, x, y, -z, y, -x, -z, -x, -y, -z, -y, x, -z});
   scene.camera = Camera{};
   scene.camera.position = {1.2, 0.9, 2.4};
   scene.camera.look_at({0, 0, 0});
