@@ -166,15 +166,17 @@ class Suite {
 
   // From the vertices to the picture.
   void add_pipelines(const std::string& file) {
-    for (const auto& scene : read_pipelines(file))
-      for (const auto& [name, pipeline] :
-           {std::pair{"least", scene->least}, {"exact", lab::exact_pipeline()}}) {
+    for (const auto& scene : read_pipelines(file)) {
+      const auto add = [&](const std::string& name, const lab::Pipeline& pipeline) {
         Row row;
         row.name = fmt::format("needs/{}/pipeline:{}/threads:1", scene->name, name);
         row.execution = {.threads = 1, .target = SimdTarget::scalar};
         row.pipeline = PipelineDraw{scene, pipeline};
         rows_.push_back(std::move(row));
-      }
+      };
+      for (std::size_t i = 0; i < scene->minima.size(); ++i) add(std::to_string(i + 1), scene->minima[i]);
+      if (!scene->minima.empty()) add("exact", lab::exact_pipeline());
+    }
   }
 
   WorkloadPtr make_workload(std::function<tools::Source()> load) const {

@@ -1,4 +1,4 @@
-// The least precise pipeline of a scene beside the exact one, as rows.
+// The least precise pipelines of a scene beside the exact one, as rows.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,12 @@
 
 namespace edgewise::bench {
 
-// A scene, its least precise pipeline, and what the two rows share.
+// A scene, its least precise pipelines, and what their rows share.
 struct PipelineScene {
   std::string name;
   SceneRequest request;
-  lab::Pipeline least;
+  std::vector<lab::Pipeline> minima;
+  std::uint64_t tolerance_px = 0;  // wrong pixels that each of them may draw
   // After a row is prepared:
   std::optional<lab::PipelineFrame> frame;
   std::vector<std::uint32_t> right;
@@ -31,7 +32,7 @@ struct PipelineDraw {
   std::shared_ptr<PipelineScene> scene;
   lab::Pipeline pipeline;
 
-  // Returns the timed draw. `error` says that it draws wrong pixels.
+  // Returns the timed draw. `error` says that it draws more wrong pixels than are tolerated.
   std::function<void()> prepare(std::string& error) const;
 };
 

@@ -76,9 +76,11 @@ def portable_table(found):
 # What scenes need, and what the tutorials' engines have.
 PLANES = ("near plane", "far plane", "guard band")
 FACING, VISIBILITY, DEPTH, BITS = "facing test", "visibility", "depth buffer", "subpixel bits"
-# Questions about edges and float depths, all else exact: the title of their line, and how the question begins.
+# Questions about edges, all else exact: the title of their line, and how the question begins.
 EDGES = {"no crack or fold": "subpixel bits: no crack, no fold", "no worse than 8 bits": "subpixel bits, no worse than 8 bits",
-         "float depth": "float depth buffer", "edge values": "edge values"}
+         "edge values": "edge values"}
+# Depth formats, as levels.
+FORMATS = {"D16": "16 bits", "D24": "24 bits", "D32F": "float_z", "reversed D32F": "reversed_z", "ours": "contract31"}
 
 # The tutorials' engines by stage: the question, and their answer.
 TUTORIALS = (("Pico-8 software renderer", VISIBILITY, "submission_order"),
@@ -90,13 +92,13 @@ METHODS = ("submission_order", "painter_", "float_", "reversed_z", "contract31",
 
 
 def parse_needs(data):
-    """{scene: (entry, {question: its entry}, {stage of the least precise pipeline: its level})}"""
+    """{scene: (entry, {question about edges: its entry}, {stage: {level: its entry}})}"""
     found = {}
     for entry in data:
-        questions = {question["question"]: question for question in entry["alone"] + entry["edges"]}
-        if not entry["frames"] > 0:
+        if not entry["frames"] > 0 or not (entry["minima"] or entry["closest"]):
             raise ValueError(f"scene {entry['scene']}")
-        found[entry["scene"]] = (entry, questions, {stage["question"]: stage["answer"] for stage in entry["pipeline"]["stages"]})
+        found[entry["scene"]] = (entry, {question["question"]: question for question in entry["edges"]},
+                                 {curve["stage"]: {level["level"]: level for level in curve["levels"]} for curve in entry["curves"]})
     return found
 
 
@@ -119,38 +121,34 @@ def clipping(levels):
     return ", ".join(needed) or ("nothing" if PLANES[0] in levels else "–")
 
 
-def others(entry, levels):
-    """What other orders of weakening lead to, as far as it differs."""
-    def differing(other):
-        parts = [f"{other[plane]} at the {plane}" for plane in PLANES if other.get(plane) != levels.get(plane)]
-        parts += [titled(other[stage]) for stage in (FACING, VISIBILITY)
-                  if other.get(stage) != levels.get(stage) and not (stage == VISIBILITY and DEPTH in other)]
-        parts += [f"{DEPTH} of {other[DEPTH]}"] if other.get(DEPTH) != levels.get(DEPTH) and DEPTH in other else []
-        return ", ".join(parts + ([f"{other[BITS]} of positions"] if other[BITS] != levels[BITS] else []))
-
-    return "; ".join(map(differing, entry["pipeline"]["others"])) or "–"
-
-
-def over_exact(bench, scene):
-    rows = [bench.find(f"needs/{scene}/pipeline:{which}/threads:1") for which in ("exact", "least")]
+def over_exact(bench, scene, number):
+    rows = [bench.find(f"needs/{scene}/pipeline:{which}/threads:1") for which in ("exact", number)]
     return gain(*rows) if all(rows) else "–"
 
 
-def none_enough(entry):
-    """What the exact pipeline draws wrong; "" if it draws every frame right."""
-    first = entry["pipeline"]["stages"][0]
-    if first["answer"] is not None:
-        return ""
-    witness = first["answers"][-1]["witness"]
-    return f"none is enough: the exact one draws {witness['wrong_px']:,} wrong px in frame {witness['frame']}"
-
-
 def pipelines_table(found, bench):
-    """Header and lines, a line per scene: its pipeline was drawn and timed as a whole."""
-    return (["scene", "clipping", FACING, VISIBILITY, "depth", f"{BITS}, at most 8", "speed-up over exact", "or, weakened in another order"],
-            [[named(scene, entry), clipping(levels),
-              *(titled(levels[stage]) if stage in levels else "–" for stage in (FACING, VISIBILITY, DEPTH)),
-              levels.get(BITS, "–").split()[0], over_exact(bench, scene), none_enough(entry) or others(entry, levels)] for scene, (entry, _, levels) in found.items()])
+    """Header and lines: of each scene its least precise pipelines, which were drawn and timed as a whole, the fastest first."""
+    lines = []
+    for scene, (entry, _, _) in found.items():
+        timed = [(bench.find(f"needs/{scene}/pipeline:{i}/threads:1"), i, levels) for i, levels in enumerate(entry["minima"], 1)]
+        timed.sort(key=lambda row: (row[0] is None, row[0].median_ms if row[0] else 0))
+        rows = [(levels, over_exact(bench, scene, i)) for _, i, levels in timed]
+        if not rows:
+            closest = entry["closest"]
+            rows = [(closest["levels"], f"not right: {closest['worst_px']:,} wrong px in a frame")]
+        lines += [[named(scene, entry), clipping(levels), *(titled(levels.get(stage, "–")) for stage in (FACING, VISIBILITY, DEPTH)),
+                   levels[BITS].split()[0], said] for levels, said in rows]
+    return ["scene", "clipping", FACING, VISIBILITY, "depth", BITS, "speed-up over exact"], lines
+
+
+def depth_table(found):
+    """Header and lines, a line per scene: the formats that are enough for its near and far plane, all else exact."""
+    def cell(level):
+        return "enough" if level["enough"] else f"{level['worst_px']:,} wrong px"
+
+    return (["scene", "near", "far", *FORMATS],
+            [[named(scene, entry), *(f"{entry[key]:.4g}" if key in entry else "–" for key in ("near_z", "far_z")),
+              *(cell(curves[DEPTH][level]) for level in FORMATS.values())] for scene, (entry, _, curves) in found.items()])
 
 
 def edges_table(found):
@@ -163,30 +161,28 @@ def edges_table(found):
             if question is not None:
                 scenes.setdefault(titled(question["answer"] or "none is enough"), []).append(named(scene, entry))
         lines.append([title, "; ".join(f"{said}: {', '.join(names)}" for said, names in scenes.items())])
-    return ["edges and float depths", "the least precise that is enough, all else exact"], lines
+    return ["edges", "the least precise that is enough, all else exact"], lines
 
 
-def verdict(question, used):
-    """Whether a tutorial's answer is enough, and whether a less precise one would be."""
-    if question is None:
+def verdict(curve, stage, used):
+    """Whether a tutorial's level is enough, and whether a weaker one would be."""
+    if curve is None:
         return "–"
-    tried = next((a for a in question["answers"] if a["answer"] == used), None)
-    if tried is None:
-        raise BadInput(f"needs.json: no answer '{used}' to '{question['question']}'")
-    if not tried["enough"]:
-        count, frame = (tried["witness"][key] for key in ("wrong_px", "frame"))
-        said = f"{count:,} {question['error']}{'' if count == 1 else 's'} in frame {frame}"
-        as_exact = tried["witness"] == question["answers"][-1].get("witness")
-        return f"as wrong as the exact one: {said}" if as_exact else f"**not enough**: {said}"
-    names = [a["answer"] for a in question["answers"]]
-    more = question["answer"] is not None and names.index(question["answer"]) < names.index(used)
-    return f"more than needed: {titled(question['answer'])}" if more else "enough"
+    if used not in curve:
+        raise BadInput(f"needs.json: no level '{used}' of '{stage}'")
+    worst = curve[used]["worst_px"]
+    if not curve[used]["enough"]:
+        said = f"{worst:,} wrong pixel{'' if worst == 1 else 's'} in a frame"
+        return f"as wrong as the exact one: {said}" if worst == [*curve.values()][-1]["worst_px"] else f"**not enough**: {said}"
+    before = [*curve][:1 if stage == FACING else [*curve].index(used)]  # of facing tests, only the lack of one is weaker
+    weaker = next((level for level in before if level != used and curve[level]["enough"]), None)
+    return f"more than needed: {titled(weaker)}" if weaker else "enough"
 
 
 def tutorials_table(found):
     """Header and lines: what each tutorial's engine could have left out of these scenes, and what it lacks."""
     scenes = [scene for scene in TUTORIAL_SCENES if scene in found]
     header = ["engine", "stage", "its answer, all other stages exact", *(f"`{scene}`" for scene in scenes)]
-    lines = [[engine, stage, titled(used), *(verdict(found[scene][1].get(stage), used) for scene in scenes)]
+    lines = [[engine, stage, titled(used), *(verdict(found[scene][2].get(stage), stage, used) for scene in scenes)]
              for engine, stage, used in TUTORIALS]
     return header, lines if scenes else []

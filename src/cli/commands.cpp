@@ -12,7 +12,7 @@ std::vector<Command> all_commands(viewer::ShowWindow show_window) {
       {"stability", "Find where each method starts to fail", add_stability},
       {"diff", "Compare two pictures, or two depth files", add_diff},
       {"portable", "Find the pixels that conformant rasterizers may draw differently", add_portable},
-      {"needs", "Find the least precise pipeline that draws a scene right", add_needs},
+      {"needs", "Find the least precise pipelines that draw a scene right", add_needs},
       {"capture", "Write a scene's screen triangles as a .tri stream", add_capture},
       {"view", "Explore a scene: move, switch methods, see errors",
        [=](CLI::App& command) { return add_view(command, show_window); }},

@@ -1,10 +1,11 @@
-// `edgewise needs`: the least precise pipeline that still draws a scene right.
+// `edgewise needs`: the least precise pipelines that still draw a scene right.
 #include "lab/needs/needs.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,15 +25,16 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr double kFramesPerSecond = 60.0;
+constexpr double kDefaultSeconds = 10.0;
 constexpr int kMostStudiedFrames = 100'000;
-constexpr int kRangeBits[] = {4, 8, 16};
+constexpr int kMostTolerated = 1'000'000'000;
+constexpr int kEdgeBits[] = {4, 5, 6, 7, 8, 15};
 
 struct NeedsCommandOptions {
   std::vector<std::string> scenes;
   SceneOptions scene;
-  int frames = 1, orbit = 0, threads = default_threads();
-  std::optional<double> displacement;
+  int frames = 1, orbit = 0, tolerance = 0, threads = default_threads();
+  std::optional<double> seconds, displacement;
   std::string pictures;
   bool ranges = false, json = false;
 };
@@ -104,37 +106,107 @@ std::string line(std::string_view question, std::string_view answer) {
   return answer.empty() ? fmt::format("  {}\n", question) : fmt::format("  {:<35} {}\n", question, answer);
 }
 
-std::string text_of(const lab::Question& question, bool with_trials = true) {
+std::string text_of(const lab::Question& question) {
   const lab::Answer* const needed = question.needed();
   std::string text = line(question.name, needed == nullptr ? "none is enough" : needed->name);
   if (!question.proof.empty())
     text += indented("proven: " + question.proof);
-  else if (needed != nullptr && with_trials)
+  else if (needed != nullptr)
     text += indented("seen in " + counted(question.trials, question.trial));
   const lab::Answer* const next = question.next_weaker();
   if (next != nullptr) text += indented("not enough: " + describe(*next, question.error));
   return text;
 }
 
-std::string text_of(const lab::LeastPrecise& least) {
-  const lab::Question& last = least.stages.back();
-  std::string text = "least precise pipeline, all frames right";
-  if (last.needed() != nullptr) text += ": seen in " + counted(last.trials, last.trial);
-  text += "\n";
-  for (const lab::Question& stage : least.stages) text += text_of(stage, false);
-  if (!least.others.empty()) text += line("or, weakened in other orders", "");
-  for (const auto& other : least.others) {
-    std::vector<std::string> levels;
-    for (const lab::Question& stage : least.stages)
-      if (const auto at = other.find(stage.name); at != other.end() && at->second != stage.needed()->name)
-        levels.push_back(stage.name + " " + at->second);
-    for (const auto& [stage, level] : other)
-      if (std::none_of(least.stages.begin(), least.stages.end(),
-                       [&](const lab::Question& q) { return q.name == stage; }))
-        levels.push_back(stage + " " + level);
-    text += indented(fmt::format("{}", fmt::join(levels, ", ")));
+std::string text_of(const lab::Levels& pipeline) {
+  std::vector<std::string> levels;
+  for (const auto& [stage, level] : pipeline)
+    if (level != "nothing") levels.push_back(stage + " " + level);
+  return indented(fmt::format("{}", fmt::join(levels, ", ")));
+}
+
+std::string text_of(const lab::Minima& minima, std::uint64_t tolerance_px) {
+  const std::string most = counted(tolerance_px, "wrong pixel");
+  if (minima.right.empty())
+    return fmt::format("no pipeline of {} has at most {} in each frame\n  the closest has {}\n",
+                       minima.judged, most, minima.closest_px) +
+           text_of(minima.closest);
+  std::string text =
+      fmt::format("least precise of {} pipelines, at most {} in each frame\n", minima.judged, most);
+  for (const lab::Levels& pipeline : minima.right) text += text_of(pipeline);
+  return text;
+}
+
+// The last level that is not enough; null if there is none.
+const lab::Level* last_wrong(const lab::Curve& curve) {
+  const auto wrong = std::find_if(curve.levels.rbegin(), curve.levels.rend(),
+                                  [](const lab::Level& level) { return !level.enough(); });
+  return wrong == curve.levels.rend() ? nullptr : &*wrong;
+}
+
+std::string text_of(const lab::Curve& curve, std::uint64_t frames) {
+  const std::string stage = name_of(curve.stage);
+  if (!curve.proof.empty() && curve.levels.front().wrong_px == curve.levels.back().wrong_px)
+    return line(stage, curve.levels.front().name) + indented("proven: " + curve.proof);
+  std::string text = line(stage, "");
+  const auto mean = [&](std::uint64_t px) { return static_cast<double>(px) / static_cast<double>(frames); };
+  for (std::size_t i = 0, end; i < curve.levels.size(); i = end) {
+    const lab::Level& level = curve.levels[i];
+    const auto goes_on = [&](const lab::Level& next) {
+      return next.name.ends_with("bits") && next.wrong_px == level.wrong_px &&
+             next.worst_px == level.worst_px && next.hidden_px == level.hidden_px &&
+             next.farthest_squared_px == level.farthest_squared_px;
+    };
+    for (end = i + 1; end < curve.levels.size() && goes_on(curve.levels[end]);) ++end;
+    const std::string name = level.name + (end > i + 1 ? " to " + curve.levels[end - 1].name : "");
+    text += fmt::format("    {:<22}{:>11.1f}{:>9}{:>11.1f}{:>11.1f}{}\n", name, mean(level.wrong_px),
+                        level.worst_px, mean(level.hidden_px), level.farthest_px(),
+                        level.enough() ? "  enough" : "");
+  }
+  if (const lab::Level* const wrong = last_wrong(curve)) {
+    const lab::Witness& w = *wrong->witness;
+    text += indented(
+        fmt::format("{} in frame {}: at ({}, {}) {}", wrong->name, w.frame, w.x_px, w.y_px, describe(w)));
   }
   return text;
+}
+
+// How depth buffers are called by graphics interfaces, and as levels.
+constexpr std::pair<const char*, const char*> kDepthFormats[] = {{"D16", "16 bits"},
+                                                                 {"D24", "24 bits"},
+                                                                 {"D32F", "float_z"},
+                                                                 {"reversed D32F", "reversed_z"},
+                                                                 {"ours", "contract31"}};
+
+std::string depth_formats(const std::vector<lab::Curve>& curves, const lab::Ranges& ranges) {
+  const lab::Curve& depths = *std::ranges::find(curves, lab::kDepth, &lab::Curve::stage);
+  std::vector<std::string> formats;
+  for (const auto& [format, name] : kDepthFormats) {
+    const lab::Level& level = *std::ranges::find(depths.levels, name, &lab::Level::name);
+    formats.push_back(
+        fmt::format("{} {}", format, level.enough() ? "is enough" : counted(level.worst_px, "wrong pixel")));
+  }
+  const std::string planes =
+      ranges.far_z() == 0.0 ? "" : fmt::format(", near {:.4g}, far {:.4g}", ranges.near_z(), ranges.far_z());
+  return line("depth formats" + planes, "") + indented(fmt::format("{}", fmt::join(formats, ", ")));
+}
+
+std::string edge_integers(const lab::Ranges& ranges, double aspect) {
+  std::string text = fmt::format("  {:<19}{:>14}{:>18}{:>25}\n", "integers of edges", "these need",
+                                 "legs in 32, 64", "picture in 32");
+  for (const int bits : kEdgeBits) {
+    const double in_32 = lab::largest_box_px2(32, bits), in_64 = lab::largest_box_px2(64, bits);
+    const std::string picture = fmt::format("{:.0f}x{:.0f} px", std::floor(std::sqrt(in_32 * aspect)),
+                                            std::floor(std::sqrt(in_32 / aspect)));
+    text += fmt::format("    {:<17}{:>11} bits{:>10.0f}, {:<10.0f}px{:>19}\n",
+                        fmt::format("{} subpixel bits", bits), ranges.edge_value_bits(bits),
+                        std::floor(std::sqrt(in_32)), std::floor(std::sqrt(in_64)), picture);
+  }
+  return text;
+}
+
+nlohmann::json json_of(const lab::Witness& w) {
+  return {{"frame", w.frame}, {"x_px", w.x_px}, {"y_px", w.y_px}, {"right", w.right}, {"drawn", w.drawn}};
 }
 
 nlohmann::json json_of(const lab::Question& question) {
@@ -149,10 +221,27 @@ nlohmann::json json_of(const lab::Question& question) {
     json["proof"] = question.proof;
   for (const lab::Answer& answer : question.answers) {
     nlohmann::json entry{{"answer", answer.name}, {"enough", answer.enough()}};
-    if (const auto& w = answer.witness)
-      entry["witness"] = {{"frame", w->frame}, {"x_px", w->x_px},   {"y_px", w->y_px},
-                          {"right", w->right}, {"drawn", w->drawn}, {"wrong_px", answer.wrong_px}};
+    if (answer.witness) {
+      entry["witness"] = json_of(*answer.witness);
+      entry["witness"]["wrong_px"] = answer.wrong_px;
+    }
     json["answers"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+nlohmann::json json_of(const lab::Curve& curve, std::uint64_t frames) {
+  nlohmann::json json{{"stage", name_of(curve.stage)}};
+  if (!curve.proof.empty()) json["proof"] = curve.proof;
+  for (const lab::Level& level : curve.levels) {
+    nlohmann::json entry{{"level", level.name},
+                         {"enough", level.enough()},
+                         {"mean_px", static_cast<double>(level.wrong_px) / static_cast<double>(frames)},
+                         {"worst_px", level.worst_px},
+                         {"hidden_px", static_cast<double>(level.hidden_px) / static_cast<double>(frames)},
+                         {"farthest_px", level.farthest_px()}};
+    if (level.witness) entry["witness"] = json_of(*level.witness);
+    json["levels"].push_back(std::move(entry));
   }
   return json;
 }
@@ -162,6 +251,7 @@ class NeedsCommand {
   explicit NeedsCommand(const NeedsCommandOptions& options) : options_(options) {
     if (options.orbit > 0 && options.frames > 1)
       throw std::invalid_argument("--frames and --orbit cannot be combined");
+    if (options.seconds && options.frames == 1) throw std::invalid_argument("--seconds needs --frames");
     if (options.orbit > 0 && (options.scene.at || options.scene.yaw_deg || options.scene.pitch_deg))
       throw std::invalid_argument(
           "--orbit looks at the scene's centre: --at, --yaw and --pitch cannot be given");
@@ -208,7 +298,8 @@ class NeedsCommand {
   }
 
   Shot load(const std::string& scene, int frame) const {
-    return load_shot(scene, options_.scene, options_.scene.time.value_or(0.0) + frame / kFramesPerSecond);
+    const double passed = options_.seconds.value_or(kDefaultSeconds) * frame / options_.frames;
+    return load_shot(scene, options_.scene, options_.scene.time.value_or(0.0) + passed);
   }
 
   Shot load_first(const std::string& scene) const {
@@ -224,7 +315,8 @@ class NeedsCommand {
 
   void study(const std::string& scene) {
     const Shot first = load_first(scene);
-    lab::Needs needs({options_.displacement, !options_.pictures.empty(), options_.ranges, options_.threads});
+    lab::Needs needs({tolerance_px(), options_.displacement, !options_.pictures.empty(), options_.ranges,
+                      options_.threads});
     const TimeLeft left;
     Progress progress;
     const double steps = std::max(options_.frames, options_.orbit);
@@ -240,17 +332,16 @@ class NeedsCommand {
       print(options_.json ? json_text(ranges_json(first, needs)) + "\n" : ranges_table(first, needs));
       return;
     }
-    const lab::LeastPrecise least = needs.least_precise([&](std::size_t judged) {
-      progress.show(std::nullopt, fmt::format("{}, whole pipelines judged: {}", first.source.name, judged));
-    });
+    const lab::Minima minima =
+        needs.minima([&](double share) { progress.show(share, first.source.name + ", whole pipelines"); });
     progress.erase();
-    print(options_.json ? json_text(json(first, needs, least)) + "\n" : table(first, needs, least));
-    if (!options_.pictures.empty()) {
-      auto questions = least.stages;
-      std::ranges::move(needs.edges(), std::back_inserter(questions));
-      write_pictures(first.source.name, questions);
-    }
+    print(options_.json ? json_text(json(first, needs, minima)) + "\n" : table(first, needs, minima));
+    if (!options_.pictures.empty()) write_pictures(first.source.name, needs);
   }
+
+  std::uint64_t tolerance_px() const { return static_cast<std::uint64_t>(options_.tolerance); }
+
+  static double aspect(const Shot& shot) { return double(shot.frontend.width) / shot.frontend.height; }
 
   static std::string heading(const Shot& shot, const lab::Needs& needs) {
     return fmt::format("{}: {}x{} px, {}\n", printable(shot.source.name), shot.frontend.width,
@@ -268,8 +359,7 @@ class NeedsCommand {
       if (reach.beyond != 0)
         text += indented(fmt::format("{} of them do not lie outside one side of the view", reach.crossing));
     }
-    for (const int bits : kRangeBits) text += text_of(needs.ranges().edge_values(bits));
-    return text;
+    return text + edge_integers(needs.ranges(), aspect(shot));
   }
 
   nlohmann::json ranges_json(const Shot& shot, const lab::Needs& needs) const {
@@ -285,45 +375,51 @@ class NeedsCommand {
   }
 
   nlohmann::json json_heading(const Shot& shot, const lab::Needs& needs) const {
-    return {{"scene", shot.source.name},
-            {"width", shot.frontend.width},
-            {"height", shot.frontend.height},
-            {"scale", options_.scene.scale.value_or(1.0)},
-            {"frames", needs.frames()}};
+    nlohmann::json result{{"scene", shot.source.name},
+                          {"width", shot.frontend.width},
+                          {"height", shot.frontend.height},
+                          {"scale", options_.scene.scale.value_or(1.0)},
+                          {"frames", needs.frames()}};
+    if (!shot.source.stream)
+      result["near_z"] = needs.ranges().near_z(), result["far_z"] = needs.ranges().far_z();
+    return result;
   }
 
-  static std::string table(const Shot& shot, const lab::Needs& needs, const lab::LeastPrecise& least) {
-    std::string text = heading(shot, needs) + text_of(least);
-    if (!shot.source.stream)
-      text += line("right pictures against the scene",
-                   counted(needs.unlike_scene(), "pixel") + " off by over 1/64 px");
-    text += "edges and floats, all else exact\n" + text_of(needs.stages().back());
+  std::string table(const Shot& shot, const lab::Needs& needs, const lab::Minima& minima) const {
+    std::string text = heading(shot, needs) + text_of(minima, tolerance_px());
+    text += fmt::format("{:<26}{:>11}{:>9}{:>11}{:>11}\n", "wrong px, all else exact", "mean", "worst",
+                        "hidden", "farthest");
+    const auto curves = needs.curves();
+    for (const lab::Curve& curve : curves) text += text_of(curve, needs.frames());
+    text += depth_formats(curves, needs.ranges()) + edge_integers(needs.ranges(), aspect(shot));
     for (const lab::Question& question : needs.edges()) text += text_of(question);
     return text;
   }
 
-  nlohmann::json json(const Shot& shot, const lab::Needs& needs, const lab::LeastPrecise& least) const {
+  nlohmann::json json(const Shot& shot, const lab::Needs& needs, const lab::Minima& minima) const {
     nlohmann::json result = json_heading(shot, needs);
-    for (const lab::Question& stage : least.stages) result["pipeline"]["stages"].push_back(json_of(stage));
-    if (!shot.source.stream) result["pipeline"]["unlike_scene_px"] = needs.unlike_scene();
-    result["pipeline"]["orders"] = least.orders;
-    result["pipeline"]["others"] = least.others;
-    for (const lab::Question& question : needs.stages()) result["alone"].push_back(json_of(question));
+    result["tolerance_px"] = options_.tolerance;
+    result["pipelines"] = minima.judged;
+    result["minima"] = minima.right;
+    if (minima.right.empty())
+      result["closest"] = {{"levels", minima.closest}, {"worst_px", minima.closest_px}};
+    for (const lab::Curve& curve : needs.curves()) result["curves"].push_back(json_of(curve, needs.frames()));
     for (const lab::Question& question : needs.edges()) result["edges"].push_back(json_of(question));
     return result;
   }
 
   // One close-up for each witness that the table shows.
-  void write_pictures(const std::string& scene, const std::vector<lab::Question>& questions) const {
+  void write_pictures(const std::string& scene, const lab::Needs& needs) const {
     std::vector<Closeup> closeups;
-    for (const lab::Question& question : questions) {
-      const lab::Answer* const shown = question.next_weaker();
-      if (shown == nullptr || shown->picture.marks.empty()) continue;
-      std::string name = scene + "-" + question.name + "-" + shown->name;
+    const auto add = [&](const std::string& question, const auto* shown) {
+      if (shown == nullptr || shown->picture.marks.empty()) return;
+      std::string name = scene + "-" + question + "-" + shown->name;
       std::replace_if(
           name.begin(), name.end(), [](char c) { return c == ' ' || c == ',' || c == '^'; }, '_');
       closeups.push_back(closeup(name, shown->picture));
-    }
+    };
+    for (const lab::Curve& curve : needs.curves()) add(name_of(curve.stage), last_wrong(curve));
+    for (const lab::Question& question : needs.edges()) add(question.name, question.next_weaker());
     write_closeups(options_.pictures, closeups);
     if (!options_.json)
       print(
@@ -334,39 +430,47 @@ class NeedsCommand {
 };
 
 constexpr const char* kNeedsFooter = R"(Examples:
-  edgewise needs cube --frames 360
-  edgewise needs bunny.obj --fit --orbit 36
+  edgewise needs cube --frames 24
+  edgewise needs bunny.obj --fit --orbit 36 --tolerance 20
   edgewise needs capture.tri --pictures errors
   edgewise needs terrain --displacement 100 --json
   edgewise needs bunny.obj --fit --ranges
 
-Prints the least precise pipeline that draws all these frames right, drawn as a whole: stages that
-are enough alone may draw wrong pixels together. Right is the exact picture of the vertices snapped
-to 1/256 px. Its pixels that are off the scene's own vertices by over 1/64 px are counted, too.
+Prints the least precise pipelines that draw all these frames right, drawn as a whole: stages that
+are enough alone may draw wrong pixels together. A pixel is wrong if it shows another triangle than
+the exact picture of the scene's own vertices. A pipeline is right if no frame has more wrong
+pixels than --tolerance. All pipelines are judged; one is least precise if no weaker one is right:
+no facing test is weaker than each test, submission order than each painter's algorithm, these than
+a depth buffer, and fewer bits than more. If none is right, the closest one is printed: the one
+whose worst frame has the fewest wrong pixels. Less precise is not faster: only the benchmark
+measures that.
 
-The exact pipeline is weakened level by level, in the order visibility, depth, facing, planes, bits,
-while all frames stay right, also with any two stages more precise. Other orders are tried, too.
-Each stage has a witness: the first wrong pixel of this pipeline with its next weaker level.
-Less precise is not faster: only the benchmark measures that.
+Then the wrong pixels of each level while all else is exact, per frame:
 
-Triangles are numbered in submission order, from 0. "proven" follows from the ranges of the
-vertices. "seen" was compared in so many pixels, or crossings of edges with rows and columns of
-samples. Both hold for these frames only.
+  mean, worst   of all frames, and of the worst one
+  hidden        the mean of those that show a triangle that the exact picture lacks
+  farthest      of the others, in px: from such a pixel to the nearest one at which the exact
+                picture shows the same
 
-  near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them
+Levels, from the least precise on; triangles are numbered in submission order, from 0:
+
+  near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them;
+                               "proven" follows from the ranges of the vertices
   facing test                  none, by three normals, by the area in floats, by the snapped area
-  visibility                   submission order, the painter's algorithm by two sorts, depth buffer
-  depth buffer                 1 to 30 bits, then ours of 31 bits; cleared to the largest value, and
-                               only nearer pixels pass
   subpixel bits                0 to 8 bits, of the snapped vertices
+  visibility                   submission order, the painter's algorithm by two sorts, depth buffer
+  depth buffer                 1 to 30 bits, then ours of 31 bits, a float, a reversed float; only
+                               nearer pixels pass
 
-Then, while all else is exact:
+Then edges:
 
-  float depth buffer           a float, a reversed float; reversing an integer changes nothing
+  integers of edges            the bits, with the sign, that these triangles need; and the largest
+                               triangle and picture for integers of 32 and 64 bits
   subpixel bits                so many that no larger number leaves a crack; so many that none
                                displaces more pixels than 8 bits do
   float edges                  methods that compute edges in floats, without a crack
-  edge values                  the integers that hold them at 8 subpixel bits
+
+All figures are of these frames only.
 
 Exit status: 0 done, 2 bad input.)";
 
@@ -376,9 +480,12 @@ Action add_needs(CLI::App& command) {
   const auto o = std::make_shared<NeedsCommandOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   add_integer(command, "--frames", o->frames, 1, kMostStudiedFrames,
-              "Frames of a built-in scene's motion, 60 per second (1)");
+              "Frames of a built-in scene's motion (1)");
+  add_number(command, "--seconds", o->seconds, 0, 1e6, "The time over which they are spread (10)");
   add_integer(command, "--orbit", o->orbit, 1, kMostStudiedFrames,
               "Frames of a camera that circles the scene, or spins straight above it");
+  add_integer(command, "--tolerance", o->tolerance, 0, kMostTolerated,
+              "Wrong pixels in each frame of a right pipeline (0)");
   add_number(command, "--displacement", o->displacement, 0, 1e6,
              "Pixels per 10^6 edge crossings that rounding may move (as with 8 bits)");
   command.add_option("--pictures", o->pictures, "Folder for close-ups of wrong pixels")->type_name("DIR");

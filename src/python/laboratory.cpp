@@ -38,16 +38,29 @@ py::list as_list(const std::vector<lab::Question>& questions) {
   });
 }
 
+py::list as_list(const std::vector<lab::Curve>& curves, std::uint64_t frames) {
+  return list_of(curves, [&](const lab::Curve& c) {
+    const auto level = [&](const lab::Level& l) {
+      const auto mean = [&](std::uint64_t px) {
+        return static_cast<double>(px) / static_cast<double>(frames);
+      };
+      return py::make_tuple(l.name, mean(l.wrong_px), l.worst_px, mean(l.hidden_px), l.farthest_px(),
+                            as_tuple(l.witness));
+    };
+    return py::make_tuple(name_of(c.stage), list_of(c.levels, level));
+  });
+}
+
 py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int width, int height,
-                const std::string& cull, std::optional<double> displacement, int threads,
-                const py::object& progress) {
+                const std::string& cull, std::optional<double> displacement, std::uint64_t tolerance,
+                int threads, const py::object& progress) {
   if (displacement && !(*displacement >= 0.0 && *displacement <= 1e6))
     throw std::invalid_argument("displacement must be 0 to 10^6");
   const auto cameras = cameras_of(views, projections);
   const FrontendOptions options = options_of(width, height, cull);
   checked({.threads = threads});
-  lab::Needs found({.displacement = displacement, .threads = threads});
-  lab::LeastPrecise least;
+  lab::Needs found({.tolerance_px = tolerance, .displacement = displacement, .threads = threads});
+  lab::Minima minima;
   const auto add = [&](const Drawable& drawable, std::size_t) {
     found.add(lab::with_camera(drawable, {width, height}), options);
   };
@@ -55,7 +68,7 @@ py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int
   const DefaultFloatState state;
   {
     const Released released;
-    least = found.least_precise();
+    minima = found.minima();
   }
   py::dict reach;
   const bool is_stream = cameras.empty();
@@ -66,9 +79,10 @@ py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int
   }
   std::vector<int> bits;
   for (int i = 0; i <= lab::kMostSubpixelBits; ++i) bits.push_back(found.ranges().edge_value_bits(i));
-  return py::make_tuple(found.frames(), as_list(least.stages), least.orders, least.others,
-                        is_stream ? 0 : found.unlike_scene(), as_list(found.stages()), as_list(found.edges()),
-                        reach, bits);
+  const py::object closest =
+      minima.right.empty() ? py::object(py::make_tuple(minima.closest, minima.closest_px)) : py::none();
+  return py::make_tuple(found.frames(), minima.right, closest, as_list(found.curves(), found.frames()),
+                        as_list(found.edges()), reach, bits);
 }
 
 Array<std::uint8_t> portable(Drawn& self, const Matrix& views, const Matrix& projections, int width,

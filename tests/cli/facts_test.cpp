@@ -57,7 +57,7 @@ TEST(Facts, OfSweepsAreThoseOfTheResults) {
 }
 
 TEST(Facts, OfNeedsAndPortablePixelsAreThoseOfTheResults) {
-  const json needs = json::parse(facts("needs cubes --frames 12 --json")),
+  const json needs = json::parse(facts("needs cubes --frames 12 --size 640x360 --tolerance 230 --json")),
              portable = json::parse(facts("portable cube --json"));
   EXPECT_EQ(needs.dump(), entry(committed("needs"), needs, {"scene", "width", "frames"}).dump());
   EXPECT_EQ(portable.dump(),

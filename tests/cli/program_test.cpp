@@ -468,13 +468,13 @@ TEST_F(ProgramRenders, AGoldenPictureWithTheBitsOfTheMask) {
 }
 
 TEST(Program, NeedsFits80ColumnsAndGivesItsEvidence) {
-  const Outcome outcome = edgewise_with("needs cube cubes --size 160x90 --threads 1");
+  const Outcome outcome = edgewise_with("needs cube cubes --size 160x90 --tolerance 9 --threads 1");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
-  for (const char* part :
-       {"least precise pipeline, all frames right: seen in 14400 pixels", "proven: the nearest vertex is at ",
-        "not enough: ", "edge values at 8 ", " wrong pixels in frame 0; at ("})
+  for (const char* part : {"least precise of 1836 pipelines, at most 9 wrong pixels in each frame",
+                           "proven: the nearest vertex is at ", "depth formats, near 0.1, far 100",
+                           "edge values at 8 ", " in frame 0: at ("})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
   EXPECT_EQ(outcome.out.find("fast"), std::string::npos) << "nothing was timed";
 }
@@ -488,12 +488,10 @@ TEST(Program, NeedsFollowsMotionAndOrbit) {
   EXPECT_EQ(frames("--frames 4"), 4);
   const auto orbit = nlohmann::json::parse(edgewise_with("needs cube --size 96x54 --json --orbit 5").out);
   EXPECT_EQ(orbit.at("frames"), 5);
-  // From all sides the cube's faces need another test than the one for faces in the middle.
-  for (const auto& questions : {orbit.at("pipeline").at("stages"), orbit.at("alone"), orbit.at("edges")})
-    for (const auto& question : questions) {
-      EXPECT_TRUE(question.at("answer").is_string()) << question;
-      EXPECT_TRUE(question.at("proven") == true || question.at("trials").at("count") > 0) << question;
-    }
+  EXPECT_EQ(orbit.at("minima").empty(), orbit.contains("closest"));
+  EXPECT_EQ(orbit.at("curves").size(), 7u);
+  for (const auto& question : orbit.at("edges"))
+    EXPECT_TRUE(question.at("proven") == true || question.at("trials").at("count") > 0) << question;
 }
 
 TEST(Program, NeedsTurnsACameraThatIsStraightAbove) {
@@ -531,7 +529,8 @@ TEST(Program, NeedsByRangesAlone) {
 }
 
 TEST_F(ProgramRenders, WhatIsNotEnoughAsCloseups) {
-  const Outcome outcome = edgewise_with("needs cubes --size 96x54 --pictures " + path("errors"));
+  const Outcome outcome =
+      edgewise_with("needs cubes --size 96x54 --tolerance 5 --pictures " + path("errors"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-visibility-painter_farthest.png")));
   EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-facing_test-normal_dot_object.png")));

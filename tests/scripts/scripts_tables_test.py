@@ -12,7 +12,7 @@ from accuracy_rows import Accuracy, Measured, Method, Pooled, Scene, parse_accur
 from bench_rows import Bench, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_lines, speed_table  # noqa: E402
 from choice import choice_table, parse_choices  # noqa: E402
-from facts_tables import edges_table, method_times, pipelines_table, read_needs, tutorials_table  # noqa: E402
+from facts_tables import depth_table, edges_table, method_times, pipelines_table, read_needs, tutorials_table  # noqa: E402
 from program import BadInput  # noqa: E402
 from python_tables import python_lines, read_python  # noqa: E402
 
@@ -140,22 +140,25 @@ def question(name, *answers, needed):
         for i, a in enumerate(answers)]}
 
 
-def entry(scene, near="nothing", facing="normal_z", visibility="submission_order", others=()):
-    planes = [question("near plane", "nothing", "drop whole triangles", "clip", needed=near),
-              question("far plane", "nothing", "clip", needed="nothing"), question("guard band", "nothing", "clip", needed="nothing")]
-    rest = [question("visibility", "submission_order", "painter_mean", "depth buffer", needed=visibility),
-            question("subpixel bits", "7 bits", "8 bits", needed="8 bits")]
-    tests = "normal_z", "normal_dot_eye", "snapped_area"
-    return {"scene": scene, "frames": 3,
-            # As a whole, it needs a facing test that is right where the order of submission decides.
-            "pipeline": {"stages": [*planes, question("facing test", *tests, needed="normal_dot_eye"), *rest],
-                         "orders": 6, "others": list(others)},
-            "alone": [*planes, question("facing test", *tests, needed=facing), *rest,
-                      question("float depth buffer", "float_z", "reversed_z", needed="float_z")],
+def curve(stage, *levels, enough):
+    return {"stage": stage, "levels": [{"level": level, "enough": level in enough, "mean_px": 0.5, "worst_px": 0 if level in enough else 1 + i}
+                                       for i, level in enumerate(levels)]}
+
+
+def entry(scene, minima=(), **more):
+    """Clipping at the near plane, a facing test by the eye, and a depth buffer are enough."""
+    return {"scene": scene, "frames": 3, "minima": list(minima), **more,
+            "curves": [curve("near plane", "nothing", "drop whole triangles", "clip", enough=("clip",)),
+                       curve("facing test", "no test", "normal_z", "normal_dot_eye", "snapped_area", enough=("normal_dot_eye", "snapped_area")),
+                       curve("visibility", "submission_order", "painter_mean", "depth buffer", enough=("painter_mean", "depth buffer")),
+                       curve("depth buffer", "16 bits", "24 bits", "contract31", "float_z", "reversed_z", enough=("24 bits", "contract31"))],
             "edges": [question("subpixel bits: no crack, no fold", "0 bits", "1 bit", needed="1 bit"),
                       question("subpixel bits, no worse than 8 bits", "8 bits", needed="8 bits"),
-                      question("float edges without a crack", "float_lt", "float_le", "double_top_left", needed="double_top_left"),
                       question("edge values at 8 subpixel bits", "32-bit integers", needed="32-bit integers")]}
+
+
+PIPELINE = {**dict.fromkeys(("near plane", "far plane", "guard band"), "nothing"), "facing test": "no test",
+            "visibility": "painter_mean", "subpixel bits": "6 bits"}
 
 
 def compared_packages(**peers):
@@ -202,53 +205,50 @@ class NeedsTest(FolderTest):
             with self.assertRaises(BadInput):
                 self.read(entry)
 
-    def test_a_line_is_a_pipeline_that_was_drawn_as_a_whole(self):
-        other = {**dict.fromkeys(("near plane", "far plane", "guard band"), "nothing"), "facing test": "normal_z", "visibility": "depth buffer", "depth buffer": "6 bits",
-                 "subpixel bits": "8 bits"}
-        stream = {**entry("grid"), "pipeline": {"stages": [question("visibility", "submission_order", needed="submission_order")],
-                                                "orders": 1, "others": []}}
-        timed = bench({"needs/cube/pipeline:least/threads:1": 2.0, "needs/cube/pipeline:exact/threads:1": 4.0,
-                       "needs/terrain/pipeline:least/threads:1": 4.02, "needs/terrain/pipeline:exact/threads:1": 4.0})
-        wrong = {**entry("cubes"), "pipeline": {"stages": [question("pipeline", "the exact one", needed=None)], "orders": 0, "others": []}}
-        header, lines = pipelines_table(self.read(entry("cube", others=[other]), entry("terrain", near="clip"), stream, wrong), timed)
-        self.assertEqual([len(line) for line in lines], [len(header)] * 4)
-        self.assertEqual(lines, [["cube (3 frames)", "nothing", "`normal_dot_eye`", "`submission_order`", "–", "8", "2.0×",
-                                  "`normal_z`, depth buffer of 6 bits"],
-                                 ["terrain (3 frames)", "clip at the near plane", "`normal_dot_eye`", "`submission_order`", "–", "8",
-                                  "1.00× slower (not settled)", "–"],
-                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "–", "–", "–"],
-                                 ["cubes (3 frames)", "–", "–", "–", "–", "–", "–", "none is enough: the exact one draws 1 wrong px in frame 7"]])
+    def test_a_line_is_a_pipeline_that_was_drawn_as_a_whole_the_fastest_first(self):
+        depth = {**PIPELINE, "near plane": "clip", "visibility": "depth buffer", "depth buffer": "6 bits", "subpixel bits": "1 bit"}
+        timed = bench({"needs/cube/pipeline:1/threads:1": 4.0, "needs/cube/pipeline:2/threads:1": 2.0, "needs/cube/pipeline:exact/threads:1": 4.0})
+        stream = {"visibility": "submission_order", "subpixel bits": "0 bits"}
+        header, lines = pipelines_table(self.read(entry("cube", [PIPELINE, depth]), entry("grid", [stream]),
+                                                  entry("cubes", closest={"levels": PIPELINE, "worst_px": 1234})), timed)
+        self.assertEqual(lines, [["cube (3 frames)", "clip at the near plane", "no test", "depth buffer", "6 bits", "1", "2.0×"],
+                                 ["cube (3 frames)", "nothing", "no test", "`painter_mean`", "–", "6", "1.00× (not settled)"],
+                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "0", "–"],
+                                 ["cubes (3 frames)", "nothing", "no test", "`painter_mean`", "–", "6", "not right: 1,234 wrong px in a frame"]])
+        self.assertEqual(len(header), 7)
 
     def test_edges_have_a_line_per_question(self):
-        self.assertEqual(dict(edges_table(self.read(entry("cube"), entry("sphere")))[1]), {
+        self.assertEqual(dict(edges_table(self.read(entry("cube", [PIPELINE]), entry("sphere", [PIPELINE])))[1]), {
             title: f"{said}: cube (3 frames), sphere (3 frames)" for title, said in
-            {"no crack or fold": "1 bit", "no worse than 8 bits": "8 bits", "float depth": "`float_z`", "edge values": "32-bit integers"}.items()})
+            {"no crack or fold": "1 bit", "no worse than 8 bits": "8 bits", "edge values": "32-bit integers"}.items()})
+
+    def test_depth_formats_have_a_line_per_scene(self):
+        self.assertEqual(depth_table(self.read(entry("cube", [PIPELINE], near_z=0.1, far_z=100), entry("grid", [PIPELINE])))[1], [
+            ["cube (3 frames)", "0.1", "100", "1 wrong px", "enough", "4 wrong px", "5 wrong px", "enough"],
+            ["grid (3 frames)", "–", "–", "1 wrong px", "enough", "4 wrong px", "5 wrong px", "enough"]])
 
     def test_tutorials_have_more_than_needed_or_less(self):
-        _, lines = tutorials_table(self.read(entry("cube"), entry("cubes", near="clip", facing="normal_dot_eye",
-                                                                 visibility="depth buffer")))
-        said = {(engine, stage): verdicts for engine, stage, _, *verdicts in lines}
-        self.assertEqual(said["p5.js engine", "near plane"], ["more than needed: nothing", "enough"])
-        self.assertEqual(said["p5.js engine", "visibility"],
-                         ["more than needed: `submission_order`", "**not enough**: 2 wrong pixels in frame 7"])
-        self.assertEqual(said["Outlaw Triad trainer", "facing test"], ["enough", "**not enough**: 1 wrong pixel in frame 7"])
-        self.assertEqual(said["Outlaw Triad trainer", "near plane"], ["enough", "**not enough**: 1 wrong pixel in frame 7"])
+        _, lines = tutorials_table(self.read(entry("cube", [PIPELINE])))
+        said = {(engine, stage): verdict for engine, stage, _, verdict in lines}
+        self.assertEqual(said["p5.js engine", "near plane"], "enough")
+        self.assertEqual(said["p5.js engine", "visibility"], "enough")
+        self.assertEqual(said["REALbasic engine", "facing test"], "enough")
+        self.assertEqual(said["Outlaw Triad trainer", "facing test"], "**not enough**: 2 wrong pixels in a frame")
+        self.assertEqual(said["Outlaw Triad trainer", "near plane"], "**not enough**: 1 wrong pixel in a frame")
 
-    def test_stages_of_a_wrong_exact_pipeline_are_compared_with_it(self):
-        wrong = {**entry("cubes"), "alone": [question("near plane", "nothing", "clip", needed=None)]}
-        said = {engine: verdict for engine, stage, _, verdict in tutorials_table(self.read(wrong))[1] if stage == "near plane"}
-        self.assertEqual(said, {"Outlaw Triad trainer": "**not enough**: 1 wrong pixel in frame 7",
-                                "p5.js engine": "as wrong as the exact one: 2 wrong pixels in frame 7"})
-
-    def test_an_answer_before_the_needed_one_may_be_enough(self):
-        found = self.read(entry("cube"))
-        found["cube"][1]["facing test"]["answers"][0] = {"answer": "normal_z", "enough": True}
+    def test_a_weaker_level_that_is_enough_and_a_wrong_exact_pipeline_are_named(self):
+        found = self.read(entry("cube", [PIPELINE]))
+        curves = found["cube"][2]
+        curves["facing test"]["no test"]["enough"] = True
+        for level in curves["near plane"].values():
+            level.update(enough=False, worst_px=7)
         said = {(engine, stage): verdict for engine, stage, _, verdict in tutorials_table(found)[1]}
-        self.assertEqual(said["Outlaw Triad trainer", "facing test"], "enough")
+        self.assertEqual(said["REALbasic engine", "facing test"], "more than needed: no test")
+        self.assertEqual(said["p5.js engine", "near plane"], "as wrong as the exact one: 7 wrong pixels in a frame")
 
-    def test_an_answer_that_no_longer_exists_is_refused(self):
-        found = self.read(entry("cube"))
-        found["cube"][1]["visibility"]["answers"].clear()
+    def test_a_level_that_no_longer_exists_is_refused(self):
+        found = self.read(entry("cube", [PIPELINE]))
+        found["cube"][2]["visibility"].clear()
         with self.assertRaises(BadInput):
             tutorials_table(found)
 

@@ -8,9 +8,9 @@
 
 namespace edgewise::lab {
 
-// Calls body(y, begin, end) for each row in which the triangle covers a pixel.
+// Calls body(y, begin, end) for each row from `first_row` on in which the triangle covers a pixel.
 template <typename Body>
-void for_each_span(const ScreenTriangle& triangle, int width, int height, Body&& body) {
+void for_each_span(const ScreenTriangle& triangle, int width, int height, Body&& body, int first_row = 0) {
   using namespace contract;
   const PixelBox box = pixel_box(triangle, width, height);
   const Oriented oriented = orient(triangle);
@@ -20,7 +20,7 @@ void for_each_span(const ScreenTriangle& triangle, int width, int height, Body&&
     const std::int64_t q = n / d;
     return q * d > n ? q - 1 : q;
   };
-  for (int y = box.y0; y < box.y1; ++y) {
+  for (int y = std::max(box.y0, first_row); y < box.y1; ++y) {
     // E grows by 2^15 a from pixel to pixel, so each edge bounds the pixels of a row on one side.
     std::int64_t begin = box.x0, end = box.x1;
     for (const Edge& e : edges) {

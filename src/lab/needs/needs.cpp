@@ -14,8 +14,9 @@ void Needs::add(const Drawable& drawable, FrontendOptions options) {
   const StudiedFrame frame{frames_++, drawable, options, options_.keep_pictures};
   const auto reach = ranges_.add(frame);
   if (options_.ranges_only) return;
-  pipelines_.add(frame, reach, options_.threads);
-  coverage_.add(frame, coverage_scene(drawable, options), options_.threads);
+  const CoverageScene scene = coverage_scene(drawable, options);
+  pipelines_.add(frame, scene, reach, options_.threads);
+  coverage_.add(frame, scene, options_.threads);
 }
 
 std::vector<Question> Needs::edges() const {

@@ -1,6 +1,6 @@
-// What a scene needs: the least precise pipeline that draws the given frames right, what each of its stages
-// needs alone, and what its edges need. Each answer has a witness against the next weaker one. Edges ignore
-// triangle flags.
+// What a scene needs: the least precise pipelines that draw the given frames right, the wrong pixels of each
+// stage's levels, and what edges need. Each level that is not enough has a witness. Edges ignore triangle
+// flags.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lab/coverage/coverage.h"
-#include "lab/needs/least_precise.h"
+#include "lab/needs/pipeline_needs.h"
 #include "lab/needs/question.h"
 #include "lab/needs/ranges.h"
 
@@ -41,6 +41,7 @@ class CoverageNeeds {
 };
 
 struct NeedsOptions {
+  std::uint64_t tolerance_px = 0;           // wrong pixels per frame of a right pipeline
   std::optional<double> displacement = {};  // see CoverageNeeds
   bool keep_pictures = false;               // see StudiedFrame
   bool ranges_only = false;                 // draws nothing; then only ranges() has a result
@@ -49,7 +50,8 @@ struct NeedsOptions {
 
 class Needs {
  public:
-  explicit Needs(const NeedsOptions& options) : options_(options), coverage_(options.displacement) {}
+  explicit Needs(const NeedsOptions& options)
+      : options_(options), pipelines_(options.tolerance_px), coverage_(options.displacement) {}
 
   // Studies the next frame. All frames must be of one size and of one kind, scenes or streams. Those in
   // double are rounded to floats.
@@ -57,13 +59,11 @@ class Needs {
 
   std::uint64_t frames() const { return frames_; }
   const Ranges& ranges() const { return ranges_; }
-  // `judged` gets the number of pipelines judged so far.
-  LeastPrecise least_precise(const std::function<void(std::size_t)>& judged = [](std::size_t) {}) const {
-    return pipelines_.least_precise(ranges_, options_.threads, judged);
+  // `done` gets the share that is done.
+  Minima minima(const std::function<void(double)>& done = [](double) {}) const {
+    return pipelines_.minima(ranges_, options_.threads, done);
   }
-  std::uint64_t unlike_scene() const { return pipelines_.unlike_scene(); }
-  // Each stage alone, the others being exact: planes only for scenes, facing only if back faces are culled.
-  std::vector<Question> stages() const { return pipelines_.alone(ranges_); }
+  std::vector<Curve> curves() const { return pipelines_.curves(ranges_); }
   // What edges need: their values, and no cracks.
   std::vector<Question> edges() const;
 

@@ -26,7 +26,7 @@ constexpr std::uint32_t kPlanes[kViewPlanes] = {kNear, kFar, kGuard};
 
 constexpr const char* kFacingTests[] = {"no test",        "normal_z",   "normal_dot_object",
                                         "normal_dot_eye", "float_area", "snapped_area"};
-enum FacingLevel { kNoTest, kNormalZ, kNormalDotObject, kNormalDotEye, kFloatArea, kSnappedArea };
+enum FacingLevel { kNormalZ = 1, kNormalDotObject, kNormalDotEye, kFloatArea };  // of those between
 
 constexpr const char* kVisibilities[] = {"submission_order", "painter_mean", "painter_farthest",
                                          "depth buffer"};
@@ -37,12 +37,12 @@ void draw_unorm(const VisibilityScene& scene, VisibilityFrame& frame) {
   using Plane = UnormPlane<kBits, std::uint32_t>;
   draw_depth_buffer<Plane, std::uint32_t>(scene, frame, frame.depth32, Plane::kMax);
 }
-constexpr int kMostDepthBits = 30;  // the lab's planes hold the largest value in 32 bits with a sign
+// The lab's planes hold the largest value in 32 bits with a sign.
 constexpr auto kUnorm = []<int... kBits>(std::integer_sequence<int, kBits...>) {
   return std::array<Draw, sizeof...(kBits)>{draw_unorm<kBits + 1>...};
 }
-(std::make_integer_sequence<int, kMostDepthBits>());
-// The levels above: ours, which is exact, and those that are judged alone.
+(std::make_integer_sequence<int, kOurDepth>());
+// The levels above: ours, which is exact, and floats, which are no more and no less precise.
 constexpr const char* kOtherDepths[] = {"contract31", "float_z", "reversed_z"};
 
 Draw draw_of(const Pipeline& pipeline) {
@@ -53,25 +53,8 @@ Draw draw_of(const Pipeline& pipeline) {
                                : find_visibility_method(kOtherDepths[level - kUnorm.size()]).draw;
 }
 
-Question question(std::string name, std::span<const char* const> levels) {
-  Question result{std::move(name), {}};
-  for (const char* level : levels) result.answers.push_back({level});
-  result.trial = "pixel";
-  return result;
-}
-
-Question bits_question(const char* name, int least, int most) {
-  Question result = question(name, {});
-  for (int bits = least; bits <= most; ++bits) result.answers.push_back({bits_name(bits)});
-  return result;
-}
-
-// What decides which triangle is visible.
-enum class Depths { none, ours, distance };
-Depths depths_of(const Pipeline& pipeline) {
-  if (pipeline[kVisibility] == 0) return Depths::none;
-  const bool ours = pipeline[kVisibility] == kDepthBuffer && pipeline[kDepth] == kMostDepthBits;
-  return ours ? Depths::ours : Depths::distance;
+void add_bits(std::vector<std::string>& levels, int least, int most) {
+  for (int bits = least; bits <= most; ++bits) levels.push_back(bits_name(bits));
 }
 
 double area_px(const VisibilityTriangle& t) {
@@ -83,22 +66,28 @@ double area_px(const VisibilityTriangle& t) {
 // Makes the triangles of a frame that a pipeline shows.
 class Assembly {
  public:
-  Assembly(const Pipeline& pipeline, Cull cull, const ViewVolume& view, bool stream, PipelineMemory& memory)
+  // `for_all`: for all facing tests and visibilities, not those of the pipeline.
+  Assembly(const Pipeline& pipeline, bool for_all, Cull cull, const ViewVolume& view, bool stream,
+           PipelineMemory& memory)
       : pipeline_(pipeline),
         cull_(cull),
+        tests_(cull != Cull::back ? bit(kSnappedArea)
+               : for_all          ? bit(kSnappedArea + 1) - 1
+                                  : bit(pipeline[kFacing])),
         view_(view),
         stream_(stream),
-        depths_(depths_of(pipeline)),
         depth_(view.near_z, view.far_z),
         memory_(memory),
         scene_(memory.scene) {
+    const bool ours = pipeline[kVisibility] == kDepthBuffer && pipeline[kDepth] == kOurDepth;
+    has_depth_ = for_all || ours, has_distance_ = for_all || (pipeline[kVisibility] != 0 && !ours);
     if (stream) std::fill_n(pipeline_.begin(), kViewPlanes, kClip);
     tests_sides_ =
         std::any_of(pipeline_.begin(), pipeline_.begin() + kViewPlanes, [](int l) { return l != kNothing; });
     scene_.width = static_cast<int>(view.width_px), scene_.height = static_cast<int>(view.height_px);
     // Streams have no camera. With these planes, a vertex of depth z has the distance 1 / (1 - z / 2).
     scene_.near_z = stream ? 1.0 : view.near_z, scene_.far_z = stream ? 2.0 : view.far_z;
-    scene_.triangles.clear(), scene_.faces.clear();
+    scene_.triangles.clear(), scene_.faces.clear(), memory.kept_by.clear();
   }
 
   void add(const Scene& scene, glm::dvec3 centre) {
@@ -111,32 +100,35 @@ class Assembly {
       for (const glm::vec3 p : mesh.positions) {
         const glm::vec3 v = transform(to_screen, p);
         const float inverse_w = 1.0f / v.z;
-        const double distance = depths_ == Depths::distance ? to_screen(p).w : double{v.z};
-        memory_.vertices.push_back(project(v.x * inverse_w, v.y * inverse_w, distance));
+        const double distance = has_distance_ ? to_screen(p).w : 0.0;
+        memory_.vertices.push_back(project(v.x * inverse_w, v.y * inverse_w, v.z, distance));
         if (tests_sides_) memory_.vertices.back().snapped.outside |= outside_of(as_clip_vertex(v), view_);
       }
 
       // A face is tested by the sign of normal · (ray + scale position), in the mesh's own space.
-      const int test = cull_ == Cull::back ? pipeline_[kFacing] : kNoTest;
-      const bool by_normal = test != kNoTest && test < kFloatArea;
-      glm::vec3 ray(0.0f);
-      float scale = 0.0f;
-      if (test == kNormalZ) {
-        ray = in_mesh_space(glm::dmat3(model), line_of_sight(scene.camera));
-      } else if (test == kNormalDotObject) {
-        ray = in_mesh_space(glm::dmat3(model), centre - scene.camera.position);
-      } else if (test == kNormalDotEye) {
-        scale = glm::determinant(glm::dmat3(model)) < 0.0 ? -1.0f : 1.0f;
-        ray = -scale * glm::vec3(to_screen.origin);
-      }
-      bool front = true;
+      const float mirror = glm::determinant(glm::dmat3(model)) < 0.0 ? -1.0f : 1.0f;
+      struct {
+        std::uint32_t test;
+        glm::vec3 ray;
+        float scale;
+      } tests[] = {
+          {bit(kNormalZ), in_mesh_space(glm::dmat3(model), line_of_sight(scene.camera)), 0.0f},
+          {bit(kNormalDotObject), in_mesh_space(glm::dmat3(model), centre - scene.camera.position), 0.0f},
+          {bit(kNormalDotEye), -mirror * glm::vec3(to_screen.origin), mirror}};
+      std::uint32_t kept_by = 0;
       for (std::size_t i = 0; i < mesh.triangles.size(); ++i, ++id) {
         const glm::uvec3 t = mesh.triangles[i];
-        if (by_normal && !mesh.has_flag(i, kSameFace))
-          front = glm::dot(mesh.normals[i], ray + scale * mesh.positions[t.x]) < 0.0f;
+        if (i == 0 || !mesh.has_flag(i, kSameFace)) {
+          kept_by = tests_;
+          for (const auto& [test, ray, scale] : tests)
+            if ((tests_ & test) != 0 &&
+                !(glm::dot(mesh.normals[i], ray + scale * mesh.positions[t.x]) < 0.0f))
+              kept_by &= ~test;
+        }
         const bool two_sided = mesh.has_flag(i, kTwoSided);
-        if (!front && !two_sided) continue;
-        add_triangle(memory_.vertices[t.x], memory_.vertices[t.y], memory_.vertices[t.z], id, two_sided,
+        if (kept_by == 0 && !two_sided) continue;
+        add_triangle(memory_.vertices[t.x], memory_.vertices[t.y], memory_.vertices[t.z],
+                     {id, two_sided, two_sided ? tests_ : kept_by},
                      [&](int k) { return to_screen(mesh.positions[t[k]]); });
       }
     }
@@ -148,33 +140,40 @@ class Assembly {
       const auto clip_vertex = [&](int k) { return ClipVertex{v[k].x, v[k].y, v[k].z, 1.0}; };
       ProjectedVertex corner[3];
       for (int k = 0; k < 3; ++k) {
-        corner[k] = project(v[k].x, v[k].y, v[k].z);
+        corner[k] = project(v[k].x, v[k].y, v[k].z, v[k].z);
         corner[k].snapped.outside |= outside_of(clip_vertex(k), view_);
       }
-      add_triangle(corner[0], corner[1], corner[2], id, false, clip_vertex);
+      add_triangle(corner[0], corner[1], corner[2], {id, false, tests_}, clip_vertex);
     }
   }
 
  private:
+  static constexpr std::uint32_t bit(int i) { return 1u << i; }
+  struct Source {
+    std::uint32_t id;
+    bool two_sided;
+    std::uint32_t kept_by;  // facing tests, by bits; those of areas keep it so far
+  };
+
   // A flag beside those of Outside: the screen position is not finite.
   static constexpr std::uint32_t kNowhere = 2 * kNotFinite;
 
-  // z: a scene's distance, a stream's depth.
-  ProjectedVertex project(float x_px, float y_px, double z) const {
+  // Of a stream, both are its depth.
+  ProjectedVertex project(float x_px, float y_px, double front_end_distance, double distance) const {
     ProjectedVertex v{x_px, y_px, 0.0, {0, 0, 0, kNowhere}};
     if (!std::isfinite(x_px) || !std::isfinite(y_px)) return v;
     const int bits = pipeline_[kSubpixel];
     v.snapped = {snap(double{x_px}, bits), snap(double{y_px}, bits), 0, 0};
-    if (depths_ == Depths::ours)
-      v.snapped.z = stream_ ? quantize_depth(static_cast<float>(z)) : depth_.units(z);
-    else if (depths_ == Depths::distance)
-      v.view_z = stream_ ? 1.0 / (1.0 - z / 2.0) : std::clamp(z, scene_.near_z, scene_.far_z);
+    if (has_depth_)
+      v.snapped.z = stream_ ? quantize_depth(static_cast<float>(distance)) : depth_.units(front_end_distance);
+    if (has_distance_)
+      v.view_z = stream_ ? 1.0 / (1.0 - distance / 2.0) : std::clamp(distance, scene_.near_z, scene_.far_z);
     return v;
   }
 
   template <typename ClipVertexOf>
   void add_triangle(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c,
-                    std::uint32_t id, bool two_sided, ClipVertexOf&& clip_vertex) {
+                    const Source& source, ClipVertexOf&& clip_vertex) {
     const std::uint32_t any = a.snapped.outside | b.snapped.outside | c.snapped.outside;
     std::uint32_t all = a.snapped.outside & b.snapped.outside & c.snapped.outside & kInvisible;
     if ((any & kNotFinite) != 0) return;
@@ -186,7 +185,7 @@ class Assembly {
       clipped &= kPlanes[i] == kNear ? 0 : ~kPlanes[i];
     }
     if (all != 0) return;
-    if ((any & clipped) == 0) return emit(a, b, c, id, two_sided);
+    if ((any & clipped) == 0) return emit(a, b, c, source);
 
     // As the library clips: a corner that is inside keeps its snapped position.
     const ProjectedVertex* const corners[] = {&a, &b, &c};
@@ -206,118 +205,112 @@ class Assembly {
     std::array<Vertex, Clipper::kMaxVertices> snapped;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const ClipVertex& v = polygon[i];
-      projected[i] = v.corner >= 0 ? *corners[v.corner] : project(x_px(v), y_px(v), v.z);
+      projected[i] = v.corner >= 0 ? *corners[v.corner] : project(x_px(v), y_px(v), v.z, v.z);
       snapped[i] = projected[i].snapped;
     }
     const Pieces pieces = split({snapped.data(), polygon.size()});
     for (std::size_t i = 0; i < pieces.count; ++i) {
       const auto [p, q, r] = pieces.corners[i];
-      emit(projected[p], projected[q], projected[r], id, two_sided);
+      emit(projected[p], projected[q], projected[r], source);
     }
   }
 
-  void emit(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c, std::uint32_t id,
-            bool two_sided) {
+  void emit(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c,
+            const Source& source) {
     if (((a.snapped.outside | b.snapped.outside | c.snapped.outside) & kNowhere) != 0) return;
     const VisibilityTriangle t{{{a.snapped.x_q15, b.snapped.x_q15, c.snapped.x_q15},
                                 {a.snapped.y_q15, b.snapped.y_q15, c.snapped.y_q15},
                                 {a.snapped.z, b.snapped.z, c.snapped.z},
-                                id},
+                                source.id},
                                {a.x_px, b.x_px, c.x_px},
                                {a.y_px, b.y_px, c.y_px},
                                {a.view_z, b.view_z, c.view_z}};
     if (contract::pixel_box(t.screen, scene_.width, scene_.height).empty()) return;
-    if (!two_sided && !is_kept(t)) return;
+    std::uint32_t kept_by = source.kept_by;
+    if (!source.two_sided) {
+      if ((kept_by & bit(kFloatArea)) != 0 && !(area_px(t) > 0.0)) kept_by &= ~bit(kFloatArea);
+      if ((kept_by & bit(kSnappedArea)) != 0) {
+        const std::int64_t area = contract::signed_area(t.screen);
+        if (!keeps(cull_, (area > 0) - (area < 0))) kept_by &= ~bit(kSnappedArea);
+      }
+      if (kept_by == 0) return;
+    }
     scene_.faces.push_back({static_cast<std::uint32_t>(scene_.triangles.size()), 1});
     scene_.triangles.push_back(t);
-  }
-
-  // By the tests of its area; those of its normal came before.
-  bool is_kept(const VisibilityTriangle& t) const {
-    if (cull_ == Cull::back && pipeline_[kFacing] != kSnappedArea)
-      return pipeline_[kFacing] != kFloatArea || area_px(t) > 0.0;
-    const std::int64_t area = contract::signed_area(t.screen);
-    return keeps(cull_, (area > 0) - (area < 0));
+    memory_.kept_by.push_back(static_cast<std::uint8_t>(kept_by));
   }
 
   Pipeline pipeline_;
   Cull cull_;
+  std::uint32_t tests_;  // the facing tests that are made
   ViewVolume view_;
-  bool stream_;
-  Depths depths_;
-  bool tests_sides_ = true;
+  bool stream_, has_depth_, has_distance_, tests_sides_;
   ViewDepth depth_;
   PipelineMemory& memory_;
   VisibilityScene& scene_;
 };
 
-// The front end's triangles, not culled. A stream's have no camera: see Assembly.
-VisibilityScene unculled(const Drawable& drawable, Size size) {
-  Frontend frontend;
-  const auto triangles = frontend.run(drawable, {.width = size.width,
-                                                 .height = size.height,
-                                                 .cull = Cull::none,
-                                                 .payload = Payload::id,
-                                                 .keep_unsnapped = true});
-  if (const auto* scene = std::get_if<Scene>(&drawable))
-    return visibility_scene(triangles, frontend.unsnapped(), *scene, size);
-  VisibilityScene result{size.width, size.height, 1.0, 2.0, {}, {}};
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const UnsnappedTriangle& at = frontend.unsnapped()[i];
-    VisibilityTriangle t{triangles[i], {}, {}, {}};
-    for (int k = 0; k < 3; ++k)
-      t.x_px[k] = at.x_px[k], t.y_px[k] = at.y_px[k], t.view_z[k] = 1.0 / (1.0 - double{at.z01[k]} / 2.0);
-    result.triangles.push_back(t);
-  }
-  return result;
-}
-
 }  // namespace
 
-Question levels_of(Stage stage) {
-  constexpr const char* kPlaneLevels[] = {"nothing", "drop whole triangles", "clip"};
-  switch (stage) {
-    case kFacing:
-      return question("facing test", kFacingTests);
-    case kVisibility:
-      return question("visibility", kVisibilities);
-    case kDepth: {
-      Question depths = bits_question("depth buffer", 1, kMostDepthBits);
-      depths.answers.push_back({kOtherDepths[0]});
-      return depths;
-    }
-    case kSubpixel:
-      return bits_question("subpixel bits", 0, Coarse::kSubBits);
-    default:
-      return question(std::string(name_of(static_cast<ViewPlane>(stage))), kPlaneLevels);
-  }
+std::string name_of(Stage stage) {
+  constexpr const char* kNames[] = {"facing test", "subpixel bits", "visibility", "depth buffer"};
+  return stage < kViewPlanes ? std::string(name_of(static_cast<ViewPlane>(stage))) : kNames[stage - kFacing];
 }
 
-Question float_depths() {
-  return question("float depth buffer", std::span(kOtherDepths).subspan(1));
+std::vector<std::string> levels_of(Stage stage) {
+  std::vector<std::string> levels;
+  switch (stage) {
+    case kFacing:
+      return {std::begin(kFacingTests), std::end(kFacingTests)};
+    case kVisibility:
+      return {std::begin(kVisibilities), std::end(kVisibilities)};
+    case kDepth:
+      add_bits(levels, 1, kOurDepth);
+      levels.insert(levels.end(), std::begin(kOtherDepths), std::end(kOtherDepths));
+      return levels;
+    case kSubpixel:
+      add_bits(levels, 0, Coarse::kSubBits);
+      return levels;
+    default:
+      return {"nothing", "drop whole triangles", "clip"};
+  }
 }
 
 Pipeline exact_pipeline() {
-  Pipeline pipeline{};
-  for (std::size_t s = 0; s < kStages; ++s)
-    pipeline[s] = static_cast<int>(levels_of(static_cast<Stage>(s)).answers.size()) - 1;
-  return pipeline;
+  return {kClip, kClip, kClip, kSnappedArea, Coarse::kSubBits, kDepthBuffer, kOurDepth};
 }
 
-Pipeline pipeline_of(const std::map<std::string, std::string>& levels) {
+bool is_weaker(const Pipeline& a, const Pipeline& b) {
+  const bool normals = a[kFacing] != b[kFacing] && a[kFacing] != kNoTest;
+  const bool painters =
+      a[kVisibility] != b[kVisibility] && a[kVisibility] != 0 && b[kVisibility] != kDepthBuffer;
+  return a != b && !normals && !painters &&
+         std::ranges::equal(a, b, [](int less, int more) { return less <= more; });
+}
+
+Pipeline pipeline_of(const Levels& levels) {
   Pipeline pipeline = exact_pipeline();
   std::size_t found = 0;
   for (std::size_t s = 0; s < kStages; ++s) {
-    const Question stage = levels_of(static_cast<Stage>(s));
-    const auto named = levels.find(stage.name);
+    const auto stage = static_cast<Stage>(s);
+    const auto named = levels.find(name_of(stage));
     if (named == levels.end()) continue;
-    const auto level = std::ranges::find(stage.answers, named->second, &Answer::name);
-    if (level == stage.answers.end())
-      throw std::invalid_argument("'" + named->second + "' is no level of '" + stage.name + "'");
-    pipeline[s] = static_cast<int>(level - stage.answers.begin()), ++found;
+    const auto all = levels_of(stage);
+    const auto level = std::ranges::find(all, named->second);
+    if (level == all.end())
+      throw std::invalid_argument("'" + named->second + "' is no level of '" + name_of(stage) + "'");
+    pipeline[s] = static_cast<int>(level - all.begin()), ++found;
   }
   if (found != levels.size()) throw std::invalid_argument("not the stages of a pipeline");
   return pipeline;
+}
+
+std::vector<std::uint32_t> right_picture(const CoverageScene& scene, int threads) {
+  if (scene.truth) return scene.truth->visible_triangles(scene.window(), threads).triangle;
+  auto ids = exact_visible_triangles(scene.floats, scene.window(), threads).triangle;
+  for (std::uint32_t& id : ids)
+    if (id != kNoTriangle) id = scene.floats[id].payload;
+  return ids;
 }
 
 std::vector<std::uint32_t> PipelineMemory::picture() const {
@@ -345,33 +338,19 @@ PipelineFrame::PipelineFrame(const Drawable& drawable, const FrontendOptions& op
 }
 
 void PipelineFrame::draw(const Pipeline& pipeline, PipelineMemory& memory) const {
+  assemble(pipeline, false, memory);
+  draw_of(pipeline)(memory.scene, memory.frame);
+}
+
+void PipelineFrame::assemble(const Pipeline& pipeline, bool for_all, PipelineMemory& memory) const {
   const auto* const scene = std::get_if<Scene>(&drawable_);
   const ViewVolume view = scene != nullptr ? view_volume(camera_of(*scene), size_.width, size_.height)
                                            : ViewVolume{double(size_.width), double(size_.height), 0.0, 1.0};
-  Assembly assembly(pipeline, cull_, view, scene == nullptr, memory);
+  Assembly assembly(pipeline, for_all, cull_, view, scene == nullptr, memory);
   if (scene != nullptr)
     assembly.add(*scene, centre_);
   else
     assembly.add(std::get<TriangleStream>(drawable_));
-  draw_of(pipeline)(memory.scene, memory.frame);
-}
-
-std::vector<std::uint32_t> PipelineFrame::right() const {
-  PipelineMemory memory;
-  memory.scene = unculled(drawable_, size_);
-  memory.scene.faces.clear();  // they are for painters
-  const auto* const scene = std::get_if<Scene>(&drawable_);
-  std::optional<SourceTriangles> sources;
-  if (scene != nullptr) sources.emplace(*scene);
-  std::erase_if(memory.scene.triangles, [&](const VisibilityTriangle& t) {
-    if (sources) {
-      const auto source = sources->at(t.screen.payload);
-      if (source.mesh.has_flag(source.triangle, kTwoSided)) return false;
-    }
-    return !keeps(cull_, SnappedTruth(t.screen).facing());
-  });
-  memory.frame.visible = snapped_visible_triangles(memory.scene);
-  return memory.picture();
 }
 
 }  // namespace edgewise::lab

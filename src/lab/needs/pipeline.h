@@ -11,28 +11,37 @@
 #include <vector>
 
 #include "frontend/clip.h"
+#include "lab/coverage/coverage.h"
 #include "lab/needs/question.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
 
 // The first three are those of ViewPlane.
-enum Stage : std::size_t { kNearPlane, kFarPlane, kGuardBand, kFacing, kVisibility, kDepth, kSubpixel };
-inline constexpr std::size_t kStages = kSubpixel + 1;
+enum Stage : std::size_t { kNearPlane, kFarPlane, kGuardBand, kFacing, kSubpixel, kVisibility, kDepth };
+inline constexpr std::size_t kStages = kDepth + 1;
 // A level per stage: 0 is the least precise. The exact pipeline, that of the library, has the highest ones.
 using Pipeline = std::array<int, kStages>;
 
 enum PlaneLevel { kNothing, kDrop, kClip };
-inline constexpr int kDepthBuffer = 3;  // the level of kVisibility
+inline constexpr int kNoTest = 0, kSnappedArea = 5;  // levels of kFacing
+inline constexpr int kDepthBuffer = 3;               // the level of kVisibility
+inline constexpr int kOurDepth = 30;                 // that of kDepth
 
-// The stage's name, and its levels as answers.
-Question levels_of(Stage stage);
-// Float depth buffers: the levels of kDepth above the exact one.
-Question float_depths();
+std::string name_of(Stage stage);
+// From the least precise on. Those of kDepth above the exact one are floats, beside the order.
+std::vector<std::string> levels_of(Stage stage);
 Pipeline exact_pipeline();
-// By the names of stages and levels; a stage without one is exact. Throws std::invalid_argument for a level
-// that does not exist.
-Pipeline pipeline_of(const std::map<std::string, std::string>& levels);
+// Whether a differs from b, and each of its stages is the same or weaker. No facing test is weaker than any
+// other; `submission_order` than each painter, and these than a depth buffer; fewer bits than more bits.
+bool is_weaker(const Pipeline& a, const Pipeline& b);
+
+using Levels = std::map<std::string, std::string>;  // by the names of stages
+// A stage without a level is exact. Throws std::invalid_argument for a level that does not exist.
+Pipeline pipeline_of(const Levels& levels);
+
+// The id that each pixel must show or kNoTriangle, row by row: by the scene's own vertices, or the stream's.
+std::vector<std::uint32_t> right_picture(const CoverageScene& scene, int threads);
 
 struct ProjectedVertex {
   float x_px, y_px;
@@ -44,7 +53,8 @@ struct ProjectedVertex {
 struct PipelineMemory {
   std::vector<ProjectedVertex> vertices;
   Clipper clipper;
-  VisibilityScene scene{};  // the assembled triangles; payloads are ids
+  VisibilityScene scene{};            // the assembled triangles; payloads are ids
+  std::vector<std::uint8_t> kept_by;  // of each of these: bit t is set if facing test t was made and keeps it
   VisibilityFrame frame;
 
   // The id that each pixel shows, or kNoTriangle, row by row.
@@ -59,13 +69,12 @@ class PipelineFrame {
   Size size() const { return size_; }
 
   void draw(const Pipeline& pipeline, PipelineMemory& memory) const;
-
-  // The picture that is right, as PipelineMemory::picture(): each pixel shows the triangle that is visible by
-  // the positions snapped to 8 bits and the exact planes through the given distances. By the truths' own
-  // arithmetic, from the library's front end on. Throws what Frontend::run() throws.
-  std::vector<std::uint32_t> right() const;
+  // Makes the triangles that every facing test and every visibility of such a pipeline begins with.
+  void assemble(const Pipeline& pipeline, PipelineMemory& memory) const { assemble(pipeline, true, memory); }
 
  private:
+  void assemble(const Pipeline& pipeline, bool for_all, PipelineMemory& memory) const;
+
   Drawable drawable_;
   Size size_;
   Cull cull_;

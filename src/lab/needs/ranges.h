@@ -22,6 +22,9 @@ struct Reach {
   std::uint64_t crossing = 0;  // of these, triangles that do not lie beyond one side of the view as a whole
 };
 
+// The largest area in px² of a box in which no triangle's edge values overflow integers of so many bits.
+double largest_box_px2(int integer_bits, int subpixel_bits);
+
 class Ranges {
  public:
   // Returns the reach of this frame's vertices by ViewPlane, in the front end's arithmetic. All 0 for
@@ -29,6 +32,9 @@ class Ranges {
   std::array<Reach, kViewPlanes> add(const StudiedFrame& frame);
   // The same of all frames.
   const Reach& reach(ViewPlane plane) const { return reach_[static_cast<std::size_t>(plane)]; }
+  // The planes of the last frame; 0 for streams.
+  double near_z() const { return near_z_; }
+  double far_z() const { return far_z_; }
   std::string describe(ViewPlane plane) const;  // "the nearest vertex is at 3.2, the plane at 0.1"
 
   // The bits, with the sign, of the largest edge value at a sample in a triangle's box and the picture, and

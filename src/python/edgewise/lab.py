@@ -60,31 +60,46 @@ class Reach(NamedTuple):
     crossing: int  # of these, those that do not lie beyond one side of the view as a whole
 
 
+class Level(NamedTuple):
+    """One level of a stage while all other stages are exact, and its wrong pixels."""
+    name: str
+    mean: float  # wrong pixels per frame
+    worst: int  # wrong pixels of the worst frame
+    hidden: float  # per frame: those that show a triangle that the exact picture lacks
+    farthest: float  # of the others, px: from such a pixel to the nearest one at which the exact picture shows the same
+    witness: Witness | None  # the first wrong pixel of the first frame with more than are tolerated; None: it is enough
+
+
+class Closest(NamedTuple):
+    """The pipeline whose worst frame has the fewest wrong pixels."""
+    levels: dict[str, str]  # level by stage
+    worst: int
+
+
 class Needs(NamedTuple):
     """What `edgewise needs` prints; see its --help."""
     frames: int
-    pipeline: tuple[Question, ...]  # the least precise pipeline that draws all frames right, by stage
-    orders: int  # of weakening the stages, all tried
-    others: tuple[dict[str, str], ...]  # what other orders lead to: level by stage
-    unlike_scene: int  # pixels of the right pictures that are off the scene's own vertices by over 1/64 px
-    alone: tuple[Question, ...]  # each stage, while the others are exact
+    minima: tuple[dict[str, str], ...]  # the least precise pipelines that are right: level by stage
+    closest: Closest | None  # if none is right
+    curves: dict[str, tuple[Level, ...]]  # by stage, each from the least precise level on
     edges: tuple[Question, ...]
     reach: dict[str, Reach]  # by plane; empty for streams
     edge_value_bits: tuple[int, ...]  # of integers that hold all edge values, for 0, 1, ... subpixel bits
 
 
 def needs(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none",
-          displacement: float | None = None, threads: int = 1, progress: Callable[[int], object] | None = None) -> Needs:
-    """The least precise pipeline that draws these frames of a scene right, or the frame of a stream, which has no cameras.
+          displacement: float | None = None, tolerance: int = 0, threads: int = 1,
+          progress: Callable[[int], object] | None = None) -> Needs:
+    """The least precise pipelines that draw these frames of a scene right, or the frame of a stream, which has no cameras.
 
     As `edgewise needs` finds it, in seconds. Cameras must have a perspective projection and an affine view. displacement:
-    pixels per 10**6 edge crossings that rounding may move; by default as many as with 8 subpixel bits. progress: as
-    in Scene.draw(); the search for the pipeline follows the last view.
+    pixels per 10**6 edge crossings that rounding may move; by default as many as with 8 subpixel bits. tolerance:
+    wrong pixels in each frame of a right pipeline. progress: as in Scene.draw(); pipelines are judged after the last view.
     """
     return _needs(_lab.needs(drawable._native, *_check.matrices(_check.cameras(cameras, "cameras")), *_check.size(size),
                              _check.text(cull, "cull"),
                              None if displacement is None else _check.numbers(displacement=displacement)[0],
-                             _check.threads(threads), _check.callback(progress, "progress")))
+                             _check.integer(tolerance, "tolerance"), _check.threads(threads), _check.callback(progress, "progress")))
 
 
 def portable(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int, int], *, cull: str = "none", bits: int = 8,
@@ -104,11 +119,9 @@ def portable(drawable: Any, cameras: Camera | Sequence[Camera], size: tuple[int,
 
 
 def _needs(found: tuple) -> Needs:
-    frames, pipeline, orders, others, unlike_scene, alone, edges, reach, bits = found
-
-    def questions(all_of: list) -> tuple[Question, ...]:
-        return tuple(Question(*facts, tuple(Answer(name, witness and Witness(*witness), wrong) for name, witness, wrong in
-                                            answers)) for *facts, answers in all_of)
-
-    return Needs(frames, questions(pipeline), orders, tuple(others), unlike_scene, questions(alone), questions(edges),
+    frames, minima, closest, curves, edges, reach, bits = found
+    questions = tuple(Question(*facts, tuple(Answer(name, witness and Witness(*witness), wrong) for name, witness, wrong in
+                                             answers)) for *facts, answers in edges)
+    levels = {stage: tuple(Level(*facts, witness and Witness(*witness)) for *facts, witness in all_of) for stage, all_of in curves}
+    return Needs(frames, tuple(minima), closest and Closest(*closest), levels, questions,
                  {plane: Reach(*counts) for plane, counts in reach.items()}, tuple(bits))
