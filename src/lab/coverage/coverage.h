@@ -45,7 +45,7 @@ class Canvas {
   // Made when it is first used.
   Backend& backend(std::string_view name, const std::function<std::unique_ptr<Backend>()>& make);
 
-  Framebuffer frame;  // all methods write payloads; backends also write depths
+  Framebuffer frame;                               // all methods write payloads; backends also write depths
   std::vector<float, LineAllocator<float>> depth;  // of all other methods; rows are frame.stride() apart
 
  private:
