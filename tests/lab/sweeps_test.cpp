@@ -194,12 +194,12 @@ TEST(CoverageSweeps, SnappingErrsOffItsGridOnlyAndAsOftenAsRoundingMovesEdgesAcr
   const SweepResult all_legs{&legs,
                              std::vector<Measured>(legs.positions.size(), measure(legs, 64, {300'000, 8}))};
   for (const auto& [method, h] : kMethods)
-    EXPECT_NEAR(rate(Found(all_legs, method).at(64)), h, 0.1 * h) << method;
+    EXPECT_NEAR(rate(Found(all_legs, method).at(64)), h, 0.2 * h) << method;
   // An edge in any direction moves along the rows or columns by h / 3 to 2 h / 3, in the mean over its
   // length.
   for (const std::string name : {"distance", "aspect", "height"}) {
     EXPECT_EQ(Found(swept(name + "_on_our_grid"), "ours_8").start(), std::nullopt) << name;
-    const SweepResult anywhere = swept(name);
+    const SweepResult anywhere = run_sweep(find_sweep(name), kFull, 2, [] {});
     const auto pooled = [&](std::string_view method) {
       Tally all;
       for (const double position : anywhere.sweep->positions) all += Found(anywhere, method).at(position);
