@@ -28,7 +28,7 @@ namespace {
 constexpr double kDefaultSeconds = 10.0;
 constexpr int kMostStudiedFrames = 100'000;
 constexpr int kMostTolerated = 1'000'000'000;
-constexpr int kEdgeBits[] = {4, 5, 6, 7, 8, 15};
+constexpr int kEdgeBits[] = {4, 5, 6, 7, 8};
 
 struct NeedsCommandOptions {
   std::vector<std::string> scenes;
