@@ -67,7 +67,7 @@ class FamilyTable {
            (first.kind == SceneKind::scenes ? "" : ", " + std::string(kind));
   }
   std::string title(std::string_view what, std::string_view trials) const {
-    return fmt::format("\n{}: {}, {} {} in {} scene{}\n", subject(), what, trials_, trials, scenes_.size(),
+    return fmt::format("\n{}: {}\n{} {} in {} scene{}\n", subject(), what, trials_, trials, scenes_.size(),
                        scenes_.size() == 1 ? "" : "s");
   }
   // The scene with the highest error rate.
@@ -142,7 +142,7 @@ std::size_t last_width(const FamilyTable& t) {
 // Pixels with the wrong visible triangle, and depth errors.
 std::string visible_triangle_table(const FamilyTable& t) {
   std::string text = fmt::format(
-      "\n{}: pixels with the wrong visible triangle, and depth errors\n"
+      "\n{}: wrong pixels, and depth errors\n"
       "depth ulp: 2^-31 of the depth range for backends, a float's ulp for others\n",
       t.subject());
   constexpr const char* kLine = "{:<21}{:>9}{:>9}{:>9}{:>8}{:>12}{:>9}\n";
