@@ -34,6 +34,7 @@ FAMILIES = {family.name: family for family in (
 PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 SCALAR = "scalar"  # the name of the form without SIMD
 LEAST_SHARE = 0.01  # of the trials of a family's largest scene
+MESHES, SINGLE, OUR_GRID = "meshes", "single triangles", "vertices on our grid"  # kinds of scenes
 UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
 
 
@@ -77,7 +78,7 @@ class Cost(NamedTuple):
 
 
 class Cracks(NamedTuple):
-    """Samples where triangles meet: at edges that two share, drawn by neither or by both; and at T-junctions."""
+    """Samples where triangles meet: at edges that two share, drawn by neither, or by both neighbours; and at T-junctions."""
     gaps: int
     double_hits: int
     t_junctions: int
@@ -85,6 +86,14 @@ class Cracks(NamedTuple):
     @property
     def at_shared_edges(self):
         return self.gaps + self.double_hits
+
+
+class Seen(NamedTuple):
+    """Pixels of a picture that show the wrong triangle; those where something shows through; and background one pixel wide between
+    triangles of meshes, which the exact picture may have, too."""
+    wrong: int
+    through: int
+    slits: int | None = None  # None in older measurements of peers
 
 
 class Pooled(NamedTuple):
@@ -110,7 +119,7 @@ class Measured:
     rate: float  # errors per 10⁶
     cracks: Cracks | None = None  # coverage only; None in older measurements of peers
     forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty where the scene is not timed
-    seen: tuple | None = None  # coverage only: pixels with the wrong visible triangle, and those where something shows through
+    seen: Seen | None = None  # coverage only
 
     @property
     def scalar(self):
@@ -132,6 +141,7 @@ class Scene:
     apart: tuple = ()  # the measurements of methods that are `apart`; coverage only
     shared_crossings: int = 0  # of edges that triangles share with sample rows or columns; coverage only
     largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
+    kind: str = MESHES  # coverage only: or OUR_GRID, or single triangles, or small scenes
 
     def in_range_of(self, method):
         """Beyond its range a method's integers overflow, which is another fault than the one that is counted."""
@@ -153,8 +163,9 @@ class Accuracy:
         return [scene for scene in self.scenes if scene.family == family]
 
     def pooled(self, family):
-        """The scenes that count in rates of the whole family: in smaller ones a single trial decides."""
-        scenes = self.of(family)
+        """The scenes that count in rates of the whole family: in smaller ones a single trial decides, and vertices on our grid favour
+        ours."""
+        scenes = [scene for scene in self.of(family) if scene.kind != OUR_GRID]
         return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
 
     def rate(self, family, method):
@@ -171,9 +182,10 @@ class Accuracy:
 
 @dataclass(frozen=True)
 class Curve:
-    method: str
+    method: Method
     points: tuple
     starts_to_fail: float | None
+    trials: int  # the fewest at a point
 
 
 @dataclass(frozen=True)
@@ -182,12 +194,13 @@ class Sweep:
     family: str
     x: dict
     curves: tuple
+    why: str = ""  # ours fail
 
 
 def parse_measured(entry, family, method, forms):
     score = entry[FAMILIES[family].truth]
     cracks = Cracks(*(int(entry["cracks"][key]) for key in Cracks._fields)) if "cracks" in entry else None
-    seen = tuple(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")) if cracks else None
+    seen = Seen(*(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")), score.get("slits")) if cracks else None
     return Measured(method, float(score["errors_per_million"]), cracks, forms, seen)
 
 
@@ -228,7 +241,7 @@ def parse_accuracy(data, bench=None):
                     for entry in scene["methods"]]
         scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]),
                             tuple(m for m in measured if not m.method.apart), tuple(m for m in measured if m.method.apart),
-                            int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
+                            int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0)), scene["kind"]))
     by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]
                  for name in FAMILIES}
     flicker = {motion["name"]: {entry["name"]: 1e6 * entry["superfluous"] / motion["changes"] for entry in motion["methods"]}
@@ -246,12 +259,12 @@ def with_peers(data, peers):
 def parse_curve(entry):
     points = tuple((float(x), float(y)) for x, y in entry["points"])
     fails = entry["starts_to_fail"]
-    return Curve(entry["method"], points, None if fails is None else float(fails))
+    return Curve(Method(entry["method"], entry["source"]), points, None if fails is None else float(fails), min(entry["trials"]))
 
 
 def parse_stability(data):
     return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, {"name": sweep["x"]["name"], "unit": sweep["x"].get("unit", "")},
-                       tuple(map(parse_curve, sweep["curves"])))
+                       tuple(map(parse_curve, sweep["curves"])), sweep["why"])
                  for sweep in data["sweeps"])
 
 

@@ -1,4 +1,5 @@
 """The tables of facts: what a viewer sees of methods, pixels that are not portable, and what scenes need."""
+from accuracy_rows import MESHES, OUR_GRID, SINGLE
 from bench_rows import facts_of
 from program import BadInput, parsed
 from tables import gain, number
@@ -10,19 +11,23 @@ def pooled_text(rate):
 
 
 def seen_table(accuracy):
-    """Header and lines: the pixels of each coverage method that a viewer sees to be wrong, still and in motion. Methods of the same
-    figures share a line."""
-    scenes = accuracy.pooled("coverage")
+    """Header and lines: the pixels of each coverage method that a viewer sees to be wrong, still and in motion; meshes, single triangles
+    and scenes on our grid apart. Methods of the same figures share a line."""
     lines = {}
     for method in accuracy.methods["coverage"]:
-        seen = [(m.seen, scene.name) for scene in scenes for m in scene.measured
+        seen = [(scene, m.seen) for scene in accuracy.of("coverage") for m in scene.measured
                 if m.method == method and m.seen and scene.in_range_of(method)]
-        if not seen:
-            continue
-        figures = (*(total_text([(counts[i], scene) for counts, scene in seen]) for i in (0, 1)),
-                   *(number(rates[method.name]) if method.name in rates else "–" for rates in accuracy.flicker.values()))
-        lines.setdefault(figures, []).append(f"`{method.name}`")
-    return (["method", "wrong pixels", "showing through", *(f"flicker, `{name}`" for name in accuracy.flicker)],
+
+        def total(kind, what):
+            counts = [(getattr(counts, what), scene.name) for scene, counts in seen if scene.kind == kind]
+            return total_text(counts) if counts else "–"
+
+        if seen:
+            figures = (total(MESHES, "wrong"), total(MESHES, "through"), total(MESHES, "slits"), total(SINGLE, "wrong"), total(OUR_GRID, "wrong"),
+                       *(number(rates[method.name]) if method.name in rates else "–" for rates in accuracy.flicker.values()))
+            lines.setdefault(figures, []).append(f"`{method.name}`")
+    return (["method", "wrong pixels of meshes", "showing through", "slits", "wrong pixels of single triangles", "wrong pixels on our grid",
+             *(f"flicker, `{name}`" for name in accuracy.flicker)],
             [[", ".join(names), *figures] for figures, names in lines.items()])
 
 

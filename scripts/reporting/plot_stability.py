@@ -2,7 +2,7 @@
 import math
 
 from accuracy_rows import FAMILIES
-from plot_style import FAINT, INK, WIDTH_IN, headline, plt, save
+from plot_style import FAINT, INK, WIDTH_IN, head_in, headline, plt, save, wrapped
 from tables import enumerated, short
 
 
@@ -24,7 +24,8 @@ def tidy(value):
 
 
 OURS, HELD, EMPTY = INK, "#9aa5b1", "#eef1f4"
-ROW_IN, NAME_IN, GAP_IN, HEAD_IN = 0.2, 1.75, 0.06, 0.62
+ROW_IN, NAME_IN, GAP_IN, HEAD_IN, LINE_IN = 0.2, 1.75, 0.06, 0.36, 0.15
+TEXT = 8.2  # the type of a block's lines
 
 
 def held(curve):
@@ -34,97 +35,119 @@ def held(curve):
 
 
 def verdict(curve):
-    if curve.starts_to_fail is None:
-        return "holds"
     return tidy(curve.starts_to_fail) if held(curve) else "fails"
 
 
-def rows_of(sweeps, methods):
-    """[(method, its curve in each sweep or None)] of the methods in any of them."""
-    rows = [(method, [next((c for c in sweep.curves if c.method == method.name), None) for sweep in sweeps]) for method in methods]
-    return [(method, curves) for method, curves in rows if any(curves)]
+# Suffixes of coverage sweeps, and where their vertices lie.
+PLACES = {"": "vertices anywhere", "_on_halves": "vertices at pixel centres and halves", "_on_our_grid": "vertices on our grid of 1/256 px"}
 
 
-OFF_GRID = "_off_grid"
+def place_of(sweep):
+    return next(suffix for suffix in reversed(PLACES) if sweep.name.endswith(suffix))
 
 
 def blocks_of(sweeps):
-    """[(name, family, sweeps)]: those of coverage with vertices on our grid, and off it."""
-    found = []
+    """[(name, sweeps)]: those of coverage by where their vertices lie."""
+    found = {}
     for family in FAMILIES:
-        of = [sweep for sweep in sweeps if sweep.family == family and sweep.curves]
-        off = [sweep for sweep in of if sweep.name == "pan" or sweep.name.endswith(OFF_GRID)]
-        if off:
-            found.append((f"{family.capitalize()}, vertices on the 1/256 px grid", family, [sweep for sweep in of if sweep not in off]))
-            found.append((f"{family.capitalize()}, vertices anywhere", family, off))
-        elif of:
-            found.append((family.capitalize(), family, of))
-    return found
+        for sweep in (sweep for sweep in sweeps if sweep.family == family and sweep.curves):
+            name = f"{family.capitalize()}, {PLACES[place_of(sweep)]}" if family == "coverage" else family.capitalize()
+            found.setdefault(name, []).append(sweep)
+    return list(found.items())
 
 
-def scale_text(x):
-    """The name and unit of a sweep's places, or the unit alone if a cell has no room for both."""
-    whole = ", ".join(filter(None, (x["name"], x["unit"])))
-    return whole if len(whole) < 24 else x["unit"]
+def rows_of(sweeps):
+    """{method: its curve in each sweep}"""
+    return {curve.method: [next(c for c in sweep.curves if c.method == curve.method) for sweep in sweeps] for curve in sweeps[0].curves}
 
 
-def finding(name, sweeps, methods):
-    """"Facing: ours and float_area hold in 2/3 sweeps". Ours are one, and hold where all of them do."""
-    holding = [{curve.method for curve in sweep.curves if curve.starts_to_fail is None} for sweep in sweeps]
-    members = {}
-    for method in methods:
-        members.setdefault("ours" if method.ours else method.name, set()).add(method.name)
-    held = {who: sum(of <= holds for holds in holding) for who, of in members.items()}
-    most = max(held.values())
-    best = [who for who, count in held.items() if count == most]
-    ours, verb = "ours" in best, "holds" if len(best) == 1 and best != ["ours"] else "hold"
-    if len(best) > 3:
-        best = ["ours", f"{len(best) - 1} others"] if ours else [f"{len(best)} methods"]
-    return (f"{name}: {enumerated(best)} {verb} in {most}/{len(sweeps)} sweeps"
-            + ("" if ours else f", ours in {held['ours']}/{len(sweeps)}"))
+def finding(name, sweeps):
+    """"Coverage: ours_8 holds in 0/5 sweeps, ours_15 in 5/5"."""
+    counts = [(method.name, sum(curve.starts_to_fail is None for curve in curves)) for method, curves in rows_of(sweeps).items() if method.ours]
+    return f"{name}: " + ", ".join(f"{who} {'in' if i else 'holds in'} {count}/{len(sweeps)}{'' if i else ' sweeps'}"
+                                   for i, (who, count) in enumerate(counts))
 
 
-def grid(sweeps, accuracy, folder, caption):
-    if accuracy is None:
-        return None
-    blocks = [(block, of, rows_of(of, accuracy.methods[family])) for block, family, of in blocks_of(sweeps)]
+def title_of(sweep):
+    return sweep.name.removesuffix(place_of(sweep)).replace("_", " ")
+
+
+def told(sweeps):
+    """(lines about methods that all sweeps judge alike, and about why ours fail; rows_of() the other methods)"""
+    rows = rows_of(sweeps)
+    alike = {"Hold in all": [m for m, curves in rows.items() if all(held(c) == 1 for c in curves)],
+             "Fail from the start in all": [m for m, curves in rows.items() if all(held(c) == 0 for c in curves)]}
+    lines = [f"{said}: {enumerated([m.name for m in methods])}." for said, methods in alike.items() if methods]
+    for why in dict.fromkeys(sweep.why for sweep in sweeps if sweep.why):
+        failing = [title_of(sweep) for sweep in sweeps if sweep.why == why and any(c.method.ours and held(c) < 1 for c in sweep.curves)]
+        if failing:
+            lines.append(f"Why ours fail in {enumerated(failing)}: {why}.")
+    return lines, {m: curves for m, curves in rows.items() if not any(m in methods for methods in alike.values())}
+
+
+def scale_text(sweep):
+    """The name, unit and ends of a sweep's places; without the name if a cell has no room for it."""
+    ends = " to ".join(tidy(sweep.curves[0].points[end][0]) for end in (0, -1))
+    whole = f"{', '.join(filter(None, (sweep.x['name'], sweep.x['unit'])))}: {ends}"
+    return whole if len(whole) < 32 else f"{sweep.x['unit']}: {ends}"
+
+
+def summed_up(blocks):
+    """"vertices anywhere: ours_15 holds; vertices at pixel centres and halves: ours_8 holds", of the first two blocks."""
+    least = [(name, next((m.name for m, curves in rows_of(of).items() if m.ours and all(held(c) == 1 for c in curves)), "none of ours"))
+             for name, of, *_ in blocks[:2]]
+    return "; ".join(f"{name.split(', ')[-1]}: {who} holds" for name, who in least)
+
+
+def grid(sweeps, folder, caption):
+    blocks = []
+    for name, of in blocks_of(sweeps):
+        lines, rows = told(of)
+        blocks.append((name, of, [part for line in lines for part in wrapped(line, TEXT).split("\n")], rows))
     if not blocks:
         return None
-    height = 1.0 + sum(HEAD_IN + ROW_IN * len(rows) + 0.12 for _, _, rows in blocks) + 0.2
-    cell_in = (WIDTH_IN - NAME_IN - 0.1) / max(len(of) for _, of, _ in blocks) - GAP_IN
+    fewest = min(curve.trials for sweep in sweeps for curve in sweep.curves)
+    subtitle = (f"A bar reaches as far as a method errs in at most 1 of 10⁴ trials against the positions that the caller gave (visibility: the "
+                f"snapped ones), of at least {short(fewest)} at each place. The figure is the first place at which it fails. Each sweep runs from easy "
+                "to hard. Bold names and dark bars: ours.")
+    height = (head_in(subtitle) + 0.3
+              + sum(0.3 + LINE_IN * len(lines) + (HEAD_IN + ROW_IN * len(rows) if rows else 0) + 0.14 for _, _, lines, rows in blocks))
+    cell_in = (WIDTH_IN - NAME_IN - 0.1) / max(len(of) for _, of, _, _ in blocks) - GAP_IN
     figure = plt.figure(figsize=(WIDTH_IN, height))
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set(xlim=(0, WIDTH_IN), ylim=(height, 0))
     axes.axis("off")
-    first = blocks[0][1][0].family
-    headline(figure, finding(first.capitalize(), [sweep for sweep in sweeps if sweep.family == first], accuracy.methods[first]),
-             "A bar reaches as far as a method errs in at most 1 of 10⁴ trials against the positions that the caller gave (visibility: the snapped "
-             "ones). The figure is the first place at which it fails. Each sweep runs from easy to hard. Bold names and dark bars: ours.")
-    y = 1.0
-    for block, of, rows in blocks:
-        axes.text(0.08, y + 0.18, finding(block, of, [method for method, _ in rows]), fontsize=10.5, fontweight="bold", va="bottom")
-        for i, sweep in enumerate(of):
-            x = NAME_IN + i * (cell_in + GAP_IN)
-            axes.text(x, y + 0.34, sweep.name.removesuffix(OFF_GRID).replace("_", " "), fontsize=8.3, va="bottom")
-            ends = " to ".join(tidy(sweep.curves[0].points[end][0]) for end in (0, -1))
-            axes.text(x, y + 0.47, f"{scale_text(sweep.x)}: {ends}", fontsize=6.5, color=FAINT, va="bottom")
-        y += HEAD_IN - 0.08
-        for method, curves in rows:
-            axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center",
-                      fontweight="bold" if method.ours else "normal")
-            for i, curve in enumerate(curves):
-                if curve is None:
-                    continue
-                x = NAME_IN + i * (cell_in + GAP_IN)
-                axes.add_patch(plt.Rectangle((x, y + 0.02), cell_in, ROW_IN - 0.04, color=EMPTY, linewidth=0))
-                axes.add_patch(plt.Rectangle((x, y + 0.02), cell_in * held(curve), ROW_IN - 0.04, linewidth=0,
-                                             color=OURS if method.ours else HELD))
-                if curve.starts_to_fail is not None:
-                    inside = held(curve) > 0.55
-                    axes.text(x + cell_in * held(curve) + (-0.03 if inside else 0.03), y + ROW_IN / 2, verdict(curve),
-                              fontsize=7.2, va="center", ha="right" if inside else "left",
-                              color="white" if inside and method.ours else INK)
-            y += ROW_IN
-        y += 0.12
+    headline(figure, summed_up(blocks).capitalize(), subtitle)
+    y = head_in(subtitle) + 0.05
+    for name, of, lines, rows in blocks:
+        axes.text(0.08, y + 0.2, finding(name, of), fontsize=10.5, fontweight="bold", va="bottom")
+        y += 0.3
+        for line in lines:
+            axes.text(0.08, y + 0.08, line, fontsize=TEXT, va="center")
+            y += LINE_IN
+        if rows:
+            draw_rows(axes, of, rows, cell_in, y)
+            y += HEAD_IN + ROW_IN * len(rows)
+        y += 0.14
     save(figure, folder, "stability-grid", caption)
     return "stability-grid"
+
+
+def draw_rows(axes, sweeps, rows, cell_in, y):
+    """The sweeps' names, and below them a row of bars for each method."""
+    for i, sweep in enumerate(sweeps):
+        x = NAME_IN + i * (cell_in + GAP_IN)
+        axes.text(x, y + 0.2, title_of(sweep), fontsize=8.6, va="bottom")
+        axes.text(x, y + 0.33, scale_text(sweep), fontsize=6.8, color=FAINT, va="bottom")
+    y += HEAD_IN
+    for method, curves in rows.items():
+        axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center", fontweight="bold" if method.ours else "normal")
+        for i, curve in enumerate(curves):
+            x, width = NAME_IN + i * (cell_in + GAP_IN), cell_in * held(curve)
+            for size, colour in ((cell_in, EMPTY), (width, OURS if method.ours else HELD)):
+                axes.add_patch(plt.Rectangle((x, y + 0.02), size, ROW_IN - 0.04, color=colour, linewidth=0))
+            if curve.starts_to_fail is not None:
+                inside = held(curve) > 0.55
+                axes.text(x + width + (-0.03 if inside else 0.03), y + ROW_IN / 2, verdict(curve), fontsize=7.5, va="center",
+                          ha="right" if inside else "left", color="white" if inside and method.ours else INK)
+        y += ROW_IN

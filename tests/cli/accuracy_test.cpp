@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "cli/accuracy/accuracy.h"
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
+#include "edgewise/tri_file.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage_support.h"
 #include "lab/peers/peer.h"
@@ -37,7 +39,7 @@ const json& named(const json& list, std::string_view name) {
 }
 
 TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsPredicted) {
-  const json report = json_of("drtk_quad lattice_square");
+  const json report = json_of("drtk_quad lattice_square small_triangles");
   const auto count = [&](const char* scene, const char* method, const char* what) {
     const json& entry = named(named(report.at("scenes"), scene).at("methods"), method);
     return entry.at(entry.at("cracks").contains(what) ? "cracks" : "source").at(what).get<int>();
@@ -49,6 +51,7 @@ TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsPredicted) {
   EXPECT_EQ(count("drtk_quad", "float_top_left", "errors"), 0);
   EXPECT_EQ(count("lattice_square", "float_le", "double_hits"), 64);
   EXPECT_EQ(count("lattice_square", "float_lt", "gaps"), 64);
+  EXPECT_EQ(count("small_triangles", "whole_pixel", "double_hits"), 23) << "rounding turns some over";
 }
 
 TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
@@ -77,6 +80,7 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
   EXPECT_EQ(quad.at("crossings"), 36);
   EXPECT_EQ(quad.at("shared_crossings"), 6) << "crossings of the diagonal";
   EXPECT_NEAR(quad.at("largest_side_px").get<double>(), 6.0, 1e-4);
+  EXPECT_EQ(quad.at("kind"), "small scenes");
   EXPECT_GT(quad.at("methods").at(0).at("source").at("bound_per_million"), 0);
   const json& wrong = named(quad.at("methods"), "float_le").at("source");
   EXPECT_GT(wrong.at("errors_per_million"), 0);
@@ -98,6 +102,41 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
     EXPECT_GT(named(motion.at("methods"), "fixed_8").at("superfluous"), 0)
         << "snapping moves edges to and fro";
   }
+}
+
+// Two quads, .0012 px apart on both sides of a row of samples: no edge is shared there, and the exact picture
+// shows the background, too.
+TEST(Accuracy, CountsTheSlitThatAViewerSeesAlongASeam) {
+  const TempDir folder;
+  const std::string path = (folder.path() / "seam.tri").string();
+  TriangleStream seam{64, 24, {}};
+  const auto quad = [&](float top, float bottom) {
+    const auto add = [&](glm::vec2 a, glm::vec2 b, glm::vec2 c) {
+      seam.triangles.push_back({{{a, 0.5f}, {b, 0.5f}, {c, 0.5f}}, 1});
+    };
+    add({2.3f, top}, {60.7f, bottom}, {2.3f, bottom});
+    add({2.3f, top}, {60.7f, top}, {60.7f, bottom});
+  };
+  quad(2.2f, 10.4994f), quad(10.5006f, 20.1f);
+  std::ofstream out(path, std::ios::binary);
+  write_tri(out, seam);
+  out.close();
+  const json scene = json_of(path + " --family coverage").at("scenes").at(0);
+  EXPECT_EQ(scene.at("kind"), "meshes");
+  EXPECT_EQ(scene.at("slits"), 59);
+  const json& exact = named(scene.at("methods"), "double_top_left");
+  EXPECT_EQ(exact.at("source").at("wrong_pixels"), 0);
+  EXPECT_EQ(exact.at("source").at("slits"), 59);
+  EXPECT_EQ(named(scene.at("methods"), "tiled").at("source").at("slits"), 0) << "1/256 px closes it";
+}
+
+TEST(Accuracy, KindsOfScenesStandApart) {
+  const auto kind = [](const std::string& scene) {
+    return json_of(scene + " --quick --family coverage --method float_lt").at("scenes").at(0).at("kind");
+  };
+  EXPECT_EQ(kind("cube"), "meshes");
+  EXPECT_EQ(kind("large"), "single triangles");
+  EXPECT_EQ(kind("mesh_on_grid"), "vertices on our grid");
 }
 
 TEST(Accuracy, TheZNormalTestAloneMisjudgesTheBox) {
@@ -197,9 +236,10 @@ TEST(Accuracy, TablesFitEightyColumns) {
   plan.quick = true;
   std::string text = accuracy_tables(measure_accuracy(plan));
   EXPECT_NE(text.find("0 (<"), std::string::npos);
-  EXPECT_NE(text.find("over half on lattice_square; without it: float_le 166667, float_lt 166667"),
-            std::string::npos)
-      << "6 of 36 crossings of the other scene";
+  EXPECT_NE(text.find("over half of the errors are on lattice_square, of float_le, float_lt\n"
+                      "  without it:\n  scanline 0 (<83333), "),
+            std::string::npos);
+  EXPECT_NE(text.find(" float_lt 166667"), std::string::npos) << "6 of 36 crossings of the other scene";
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     EXPECT_LE(end, 80u) << text.substr(0, end);

@@ -86,7 +86,7 @@ TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {
 
 VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
   return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid},
-                              2)
+                              picture.cracks.surface(), 2)
       .score(find_coverage_method(method));
 }
 
@@ -101,7 +101,7 @@ TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
 TEST(CoverageVisibleTriangles, OfBackendsAreExactAndDepthsSatisfyRuleSix) {
   for (const CoverageCase& c : coverage_cases()) {
     const Picture& picture = picture_of(c.name);
-    const VisibleTriangleJudge judge({c.size, picture.floats, picture.grid}, 2);
+    const VisibleTriangleJudge judge({c.size, picture.floats, picture.grid}, picture.cracks.surface(), 2);
     for (const auto& backend : backends()) {
       const VisibleTriangleScore score = judge.score(find_coverage_method(backend.name));
       EXPECT_EQ(score.wrong_snapped, 0u) << backend.name << " in " << c.name;

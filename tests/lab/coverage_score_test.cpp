@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "lab/coverage/pixel_changes.h"
 #include "lab/coverage_support.h"
 
 namespace edgewise::lab {
@@ -87,6 +88,20 @@ TEST(Differences, AreHitsOfOnlyOneList) {
     for (const Hit& hit : missing) ASSERT_EQ(in_truth.count(hit), 1u);
     for (const Hit& hit : extra) ASSERT_EQ(in_drawn.count(hit), 1u);
   }
+}
+
+TEST(PixelChanges, AreSuperfluousIfThePixelChangesOftenerAndNotOnlyEarlierOrLater) {
+  const auto beyond = [](std::vector<std::uint32_t> truth, std::vector<std::uint32_t> drawn) {
+    PixelChanges exact, method;
+    for (const std::uint32_t pixel : truth) exact.add({pixel});
+    for (const std::uint32_t pixel : drawn) method.add({pixel});
+    return method.beyond(exact);
+  };
+  EXPECT_EQ(beyond({1, 1, 2, 2}, {1, 2, 2, 2}), 0u) << "early";
+  EXPECT_EQ(beyond({1, 1, 1, 1}, {1, 1, 1, 2}), 0u) << "the truth may change after the last frame";
+  EXPECT_EQ(beyond({2, 2, 2, 2}, {1, 2, 2, 2}), 0u) << "the truth may have changed before the first one";
+  EXPECT_EQ(beyond({1, 1, 1, 1}, {1, 2, 1, 1}), 2u);
+  EXPECT_EQ(beyond({1, 1, 2, 2}, {1, 2, 1, 2}), 2u);
 }
 
 TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {

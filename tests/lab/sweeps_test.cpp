@@ -20,13 +20,13 @@ namespace edgewise::lab {
 namespace {
 
 SweepResult swept(std::string_view name, int threads = 2) {
-  return run_sweep(find_sweep(name), true, threads, [] {});
+  return run_sweep(find_sweep(name), kQuick, threads, [] {});
 }
 
 // A sweep's results for one method.
 struct Found {
   Found(const SweepResult& result, std::string_view method) : result_(result) {
-    const auto methods = methods_of(result.sweep->family);
+    const auto methods = swept_methods(result.sweep->family);
     const auto at =
         std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == method; });
     if (at == methods.end()) throw std::invalid_argument("no method " + std::string(method));
@@ -65,12 +65,12 @@ void expect_schema(const nlohmann::json& json, const SweepResult& result) {
   for (const char* key : {"name", "unit"}) EXPECT_TRUE(json.at("x").at(key).is_string());
   EXPECT_TRUE(json.at("y").at("name").is_string());
   for (const char* axis : {"x", "y"}) EXPECT_TRUE(json.at(axis).at("log").is_boolean());
-  const auto methods = methods_of(sweep.family);
+  const auto methods = swept_methods(sweep.family);
   const auto& curves = json.at("curves");
   ASSERT_EQ(curves.size(), methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
     EXPECT_EQ(curves[i].at("method"), methods[i].name);
-    EXPECT_EQ(curves[i].at("exact"), methods[i].exact);
+    EXPECT_EQ(curves[i].at("source"), methods[i].source);
     ASSERT_EQ(curves[i].at("points").size(), sweep.positions.size());
     ASSERT_EQ(curves[i].at("trials").size(), sweep.positions.size());
     const auto start = result.starts_to_fail(i);
@@ -88,7 +88,7 @@ void expect_schema(const nlohmann::json& json, const SweepResult& result) {
 TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
   const Sweep& sweep = find_sweep(GetParam());
   int calls = 0;
-  const SweepResult result = run_sweep(sweep, true, 2, [&] { ++calls; });
+  const SweepResult result = run_sweep(sweep, kQuick, 2, [&] { ++calls; });
   EXPECT_EQ(calls, static_cast<int>(sweep.positions.size()));
   ASSERT_EQ(result.at.size(), sweep.positions.size());
   const bool up = sweep.positions.front() < sweep.positions.back();
@@ -96,17 +96,15 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
                  : std::is_sorted(sweep.positions.rbegin(), sweep.positions.rend()));
   expect_schema(tools::sweep_json(result), result);
 
-  const auto methods = methods_of(sweep.family);
+  const auto methods = swept_methods(sweep.family);
   bool some_fail = false;
-  const Found reference(result, sweep.family == Family::coverage ? "fixed_8" : methods.front().name);
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    some_fail = some_fail || result.starts_to_fail(i);
-    if (sweep.family != Family::coverage || !methods[i].exact) continue;
-    for (std::size_t position = 0; position < sweep.positions.size(); ++position)
-      EXPECT_EQ(result.at[position].methods[i], reference.at(sweep.positions[position]))
-          << methods[i].name << " errs otherwise than by snapping at " << sweep.positions[position];
-  }
+  for (std::size_t i = 0; i < methods.size(); ++i) some_fail = some_fail || result.starts_to_fail(i);
   EXPECT_TRUE(some_fail);
+  for (const Measured& measured : result.at) EXPECT_GE(measured.fewest_trials(), kQuick.trials);
+  const bool coverage = sweep.family == Family::coverage;
+  for (std::size_t i = 0; coverage && i < sweep.positions.size(); ++i)
+    EXPECT_EQ(Found(result, "ours_8").at(sweep.positions[i]), Found(result, "fixed_8").at(sweep.positions[i]))
+        << "ours err otherwise than by snapping at " << sweep.positions[i];
 
   std::istringstream table(tools::stability_table(result));
   std::size_t rows = 0;
@@ -160,7 +158,7 @@ TEST(Sweeps, PositionsAreTheNearestDoublesToTheirDecimals) {
 }
 
 TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
-  const SweepResult legs = swept("legs");
+  const SweepResult legs = swept("legs_on_our_grid");
   EXPECT_EQ(Found(legs, "fixed_8_int32").start(), 182);
   EXPECT_EQ(Found(legs, "fixed_8_int32").at(181).errors, 0u);
   EXPECT_EQ(Found(legs, "fixed_4_int32").at(2896), Found(legs, "fixed_4").at(2896));
@@ -171,17 +169,17 @@ TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
 }
 
 TEST(CoverageSweeps, DistanceEndsWithTheContract) {
-  for (const auto name : {"distance", "distance_off_grid"})
+  for (const auto name : {"distance", "distance_on_halves", "distance_on_our_grid"})
     EXPECT_EQ(find_sweep(name).positions.back(), contract::kMaxImageSide);
 }
 
 // The rates are those of another program, for 60 such meshes. With boxes wider by a pixel, it counts 538,000
 // per 10^6 at 16384 px.
 TEST(CoverageSweeps, EdgeEquationsFailFarFromTheOriginWhereEdgesRelativeToAVertexHold) {
-  const Sweep& distance = find_sweep("distance");
+  const Sweep& distance = find_sweep("distance_on_our_grid");
   for (const auto& [px, plain, fused] : {std::tuple{512.0, 380, 354}, {16384.0, 438'816, 343'379}}) {
-    const SweepResult all{&distance,
-                          std::vector<Measured>(distance.positions.size(), distance.measure(px, false, 8))};
+    const SweepResult all{
+        &distance, std::vector<Measured>(distance.positions.size(), measure(distance, px, {450'000, 64}))};
     EXPECT_NEAR(1e6 * rate(Found(all, "float_equation").at(px)), plain, 0.15 * plain);
     EXPECT_NEAR(1e6 * rate(Found(all, "float_equation_fma").at(px)), fused, 0.15 * fused);
     EXPECT_EQ(Found(all, "float_top_left").at(px).errors, 0u);
@@ -190,38 +188,53 @@ TEST(CoverageSweeps, EdgeEquationsFailFarFromTheOriginWhereEdgesRelativeToAVerte
 
 // Rounding moves a vertex along each axis by up to h = 2^-(bits + 1) px, all moves equally likely.
 TEST(CoverageSweeps, SnappingErrsOffItsGridOnlyAndAsOftenAsRoundingMovesEdgesAcrossSamples) {
-  constexpr std::pair<std::string_view, double> kMethods[] = {{"fixed_4", 1.0 / 32}, {"tiled", 1.0 / 512}};
+  constexpr std::pair<std::string_view, double> kMethods[] = {{"fixed_4", 1.0 / 32}, {"ours_8", 1.0 / 512}};
   // A row, column or diagonal of samples errs if an edge within h on one side of it is rounded onto it.
-  const Sweep& legs = find_sweep("legs_off_grid");
-  const SweepResult all_legs{&legs, std::vector<Measured>(legs.positions.size(), legs.measure(64, false, 8))};
+  const Sweep& legs = find_sweep("legs");
+  const SweepResult all_legs{&legs,
+                             std::vector<Measured>(legs.positions.size(), measure(legs, 64, {300'000, 8}))};
   for (const auto& [method, h] : kMethods)
-    EXPECT_NEAR(rate(Found(all_legs, method).at(64)), h, 0.1 * h) << method;
+    EXPECT_NEAR(rate(Found(all_legs, method).at(64)), h, 0.2 * h) << method;
   // An edge in any direction moves along the rows or columns by h / 3 to 2 h / 3, in the mean over its
   // length.
   for (const std::string name : {"distance", "aspect", "height"}) {
-    EXPECT_EQ(Found(swept(name), "tiled").start(), std::nullopt) << name;
-    const SweepResult off_grid = swept(name + "_off_grid");
-    for (const auto& [method, h] : kMethods) {
+    EXPECT_EQ(Found(swept(name + "_on_our_grid"), "ours_8").start(), std::nullopt) << name;
+    const SweepResult anywhere = run_sweep(find_sweep(name), kFull, 2, [] {});
+    const auto pooled = [&](std::string_view method) {
       Tally all;
-      for (const double position : off_grid.sweep->positions) all += Found(off_grid, method).at(position);
-      EXPECT_GT(rate(all), h / 3) << name << ", " << method;
-      EXPECT_LT(rate(all), 2 * h / 3) << name << ", " << method;
+      for (const double position : anywhere.sweep->positions) all += Found(anywhere, method).at(position);
+      return rate(all);
+    };
+    for (const auto& [method, h] : kMethods) {
+      EXPECT_GT(pooled(method), h / 3) << name << ", " << method;
+      EXPECT_LT(pooled(method), 2 * h / 3) << name << ", " << method;
     }
+    EXPECT_LT(pooled("ours_12"), pooled("ours_8") / 8) << name;
+    EXPECT_LT(pooled("ours_15"), pooled("ours_8") / 32) << name;
   }
-  EXPECT_TRUE(Found(swept("pan"), "tiled").start());
+  EXPECT_TRUE(Found(swept("pan"), "ours_8").start());
+}
+
+TEST(CoverageSweeps, AtPixelCentresAndHalvesOnlyTheTieRuleMatters) {
+  for (const std::string name : {"distance", "legs", "height"}) {
+    const SweepResult halves = swept(name + "_on_halves");
+    const double first = halves.sweep->positions.front();
+    for (const auto method : {"ours_8", "fixed_4", "float_top_left", "double_top_left"})
+      EXPECT_EQ(Found(halves, method).at(first).errors, 0u) << name << ", " << method;
+    for (const auto method : {"float_lt", "float_le"})
+      EXPECT_GT(rate(Found(halves, method).at(first)), 0.01) << name << ", " << method;
+  }
 }
 
 TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
   for (const auto name : {"separation_at_10", "separation_at_100"}) {
-    const SweepResult separation = swept(name);
+    const SweepResult separation = run_sweep(find_sweep(name), kFull, 2, [] {});
     const auto start = [&](std::string_view method) { return Found(separation, method).start().value(); };
     EXPECT_GT(start("unorm16"), 50 * start("unorm24")) << name;
     EXPECT_GT(start("unorm24"), 10 * start("reversed_z")) << name;
-    EXPECT_GT(start("unorm24"), 10 * start("contract31")) << name;
-    EXPECT_GT(start("float_z"), 10 * start("contract31")) << name;
-    // Reversed Z has finer steps than ours far away, and coarser ones nearby.
-    const bool is_far = std::string_view(name) == "separation_at_100";
-    EXPECT_EQ(start("contract31") > start("reversed_z"), is_far) << name;
+    EXPECT_GT(start("unorm24"), 2 * start("contract31")) << name;
+    EXPECT_GE(start("float_z"), start("contract31")) << name;
+    EXPECT_GT(start("contract31"), start("reversed_z")) << name << ": ours err by up to 34 units";
     EXPECT_EQ(start("submission_order"), separation.sweep->positions.front()) << name;
   }
   // The smallest separable distance z^2 / (near 2^bits) is 1.5 and 0.006.
@@ -239,17 +252,18 @@ TEST(FacingSweeps, SnappingFlipsFacesOneSubUnitThinAndFloatsMuchThinnerOnes) {
   EXPECT_EQ(floats.at(snapped).errors, 0u);
   EXPECT_EQ(floats.at(snapped / 16).errors, 0u);
   EXPECT_GT(floats.at(edge_on.sweep->positions.back()).errors, 0u);
+  EXPECT_EQ(Found(edge_on, "snapped_area_15").at(snapped).errors, 0u);
+  EXPECT_LT(Found(edge_on, "snapped_area_15").start().value(), snapped / 16);
 }
 
 TEST(ClippingSweeps, OnlyAMatrixOfFloatsDependsOnWhereTheOriginLies) {
   const SweepResult origin = swept("origin");
-  const auto start = Found(origin, "matrix_float").start();
-  ASSERT_TRUE(start);
-  EXPECT_GE(*start, 50);
-  EXPECT_LE(*start, 20'000);
+  const auto errors = [&](double away) { return Found(origin, "matrix_float").at(away).errors; };
+  EXPECT_EQ(errors(20), errors(1));
+  EXPECT_GT(errors(20'000), errors(1));
   EXPECT_GT(rate(Found(origin, "matrix_float").at(1e8)), 0.5);
   for (const auto method : {"near_guard", "matrix_relative", "screen_edges"})
-    EXPECT_EQ(Found(origin, method).start(), std::nullopt) << method;
+    EXPECT_EQ(Found(origin, method).at(1), Found(origin, method).at(1e8)) << method;
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ class TablesTest(unittest.TestCase):
     def test_methods_have_the_times_of_their_rows(self):
         score = {"errors_per_million": 0.0}
         data = {"methods": [{"family": "coverage", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
-                "scenes": [{"name": "s", "family": "coverage", "covered": 500, "triangles": 20, "crossings": 9,
+                "scenes": [{"name": "s", "family": "coverage", "covered": 500, "triangles": 20, "crossings": 9, "kind": "meshes",
                             "methods": [{"name": name, "source": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
         rows = {"lab/s/family:coverage/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:coverage/method:m/simd:scalar/threads:2": 3.0,
                 "lab/s/family:coverage/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:coverage/method:m/simd:avx512/threads:2": 1.0,

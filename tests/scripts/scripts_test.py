@@ -76,15 +76,15 @@ def accuracy():
 
     def measured(family, method, wrong):
         score = judged(wrong, 1000)
-        cracks = {"cracks": {"gaps": wrong, "double_hits": 0, "t_junctions": 0, "folds": 0}} if family == "coverage" else {}
+        cracks = {"cracks": {"gaps": wrong, "double_hits": 0, "t_junctions": 0}} if family == "coverage" else {}
         return {"name": method, **cracks, **({"score": score} if family == "clipping" else
-                                            {"source": {**score, "wrong_pixels": wrong, "wrong_surface_pixels": 0}, "snapped": score})}
+                                            {"source": {**score, "wrong_pixels": wrong, "wrong_surface_pixels": 0, "slits": 3}, "snapped": score})}
 
     return {"quick": False,
             "methods": [{"family": family, "name": name, "source": source, "promise": "as told", "exact": exact}
                         for family in FAMILIES
                         for name, source, exact in (("ours", "src/raster", True), ("float_le", "a book", False))],
-            "scenes": [{"name": scene, "family": family, "covered": 1000, "crossings": 1000, "triangles": 15,
+            "scenes": [{"name": scene, "family": family, "covered": 1000, "crossings": 1000, "triangles": 15, "kind": "meshes",
                         "methods": [measured(family, "ours", 0), measured(family, "float_le", 5)]}
                        for family in FAMILIES for scene in ("knot", "small")],
             "turning_cube": {"frames": 9, "methods": [{"name": name, **{key: {"total": most} for key in ("gaps", "double_hits", "extra", "missing")}}
@@ -101,12 +101,11 @@ def bench_with_normals():
 
 
 def stability():
-    curves = [{"method": "ours", "exact": True, "points": [[1, 0], [0.1, 0]], "trials": [50, 50], "starts_to_fail": None},
-              {"method": "float_le", "exact": False, "points": [[1, 0], [0.1, 7]], "trials": [50, 50],
-               "starts_to_fail": 0.1}]
+    curves = [{"method": name, "source": source, "points": [[1, 0], [0.1, wrong]], "trials": [50_000, 1e5], "starts_to_fail": 0.1 if wrong else None}
+              for name, source, wrong in (("ours", "src/raster", 0), ("float_le", "a book", 7))]
     return {"quick": False, "sweeps": [
         {"name": "nearer", "family": "visibility", "summary": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
-         "y": {"name": "wrong", "log": True, "tolerance": 1.0}, "curves": curves}]}
+         "y": {"name": "wrong", "log": True, "tolerance": 1.0}, "why": "", "curves": curves}]}
 
 
 def bench_with_peer():
@@ -267,7 +266,7 @@ class ScriptsTest(FolderTest):
 
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_facts()
-        self.assertIn("| `float_le` | 10 | 0 | – |", self.filled("seen"))
+        self.assertIn("| `float_le` | 10 | 0 | 6 | – | – | – |", self.filled("seen"))
         self.assertIn("frames of a turning cube", run("summary", self.results).stdout)
 
     def test_a_summary_fits_on_a_screen(self):
@@ -456,19 +455,19 @@ class ChartsTest(unittest.TestCase):
         self.assertEqual(list(crossings(noisy, level)), [])
         self.assertEqual(list(crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
 
-    def test_the_grid_says_who_holds_in_most_sweeps(self):
+    def test_the_grid_says_in_how_many_sweeps_ours_hold_and_why_they_fail(self):
         from accuracy_rows import Curve, Method, Sweep
-        from plot_stability import finding
-        methods = [Method(name, source) for name, source in
-                   (("tiled", "src/"), ("naive", "src/"), ("a", ""), ("b", ""), ("c", ""))]
+        from plot_stability import finding, told
+        methods = [Method(name, source) for name, source in (("ours_8", "src/"), ("ours_15", "src/"), ("a", ""), ("b", ""))]
 
-        def said(*failing):
-            curves = [tuple(Curve(m.name, (), 1.0 if m.name in fails else None) for m in methods) for fails in failing]
-            return finding("All", [Sweep("x", "coverage", {}, of) for of in curves], methods)
+        def sweep(name, **fails):
+            return Sweep(name, "coverage", {}, tuple(Curve(m, ((1.0, 0), (2.0, 0), (3.0, 0)), fails.get(m.name), 10 ** 5) for m in methods), "of 8 bits")
 
-        self.assertEqual(said("bc", "bc"), "All: ours and a hold in 2/2 sweeps")
-        self.assertEqual(said(("naive", "b", "c"), "b"), "All: a holds in 2/2 sweeps, ours in 1/2")
-        self.assertEqual(said(()), "All: ours and 3 others hold in 1/1 sweeps")
+        found = [sweep("far_away", ours_8=1.0, a=1.0), sweep("thin", a=1.0, b=3.0)]
+        self.assertEqual(finding("All", found), "All: ours_8 holds in 1/2 sweeps, ours_15 in 2/2")
+        lines, rows = told(found)
+        self.assertEqual(lines, ["Hold in all: ours_15.", "Fail from the start in all: a.", "Why ours fail in far away: of 8 bits."])
+        self.assertEqual([method.name for method in rows], ["ours_8", "b"])
 
     def test_charts_round_no_place_of_a_sweep(self):
         from plot_stability import tidy

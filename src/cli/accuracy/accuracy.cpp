@@ -110,7 +110,9 @@ class Run {
     for (const lab::LabScene& scene : chosen_.scenes) {
       const Judging judging{plan_, methods_, scene, progress(scene.name, scene.cost_s), report.closeups};
       judging.progress(0.0);
-      SceneResult result{scene.family, scene.name, scene.summary, scene.smallest, 0, 0, 0, 0, 0, 0, 0, {}};
+      SceneResult result{};
+      result.family = scene.family, result.name = scene.name, result.summary = scene.summary;
+      if (scene.smallest) result.kind = SceneKind::small;
       std::visit([&](const auto& made) { judge(made, judging, result); }, scene.make());
       report.scenes.push_back(std::move(result));
       done_s_ += scene.cost_s;

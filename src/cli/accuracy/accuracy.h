@@ -33,16 +33,14 @@ struct AccuracyPlan {
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };
 
-// The numbers of samples in lab::Cracks.
+// The numbers of samples in lab::Cracks. At a fold, too, two neighbours draw one sample.
 struct CrackCounts {
   CrackCounts() = default;
   explicit CrackCounts(const lab::Cracks& cracks)
       : gaps(cracks.gaps.size()),
-        double_hits(cracks.double_hits.size()),
-        t_junctions(cracks.at_t_junctions()),
-        folds(cracks.folds_known ? std::optional(cracks.folds.size()) : std::nullopt) {}
+        double_hits(cracks.double_hits.size() + cracks.folds.size()),
+        t_junctions(cracks.at_t_junctions()) {}
   std::uint64_t gaps = 0, double_hits = 0, t_junctions = 0;
-  std::optional<std::uint64_t> folds = 0;  // none: not known
 };
 
 struct CoverageScores {
@@ -59,10 +57,17 @@ struct MethodResult {
   Score score;
 };
 
+// What no rate sums: small scenes that show one failure each; and of coverage, meshes, single triangles,
+// which have an outline only, and scenes whose vertices all lie on the grid of 1/256 px, where ours round
+// nothing.
+enum class SceneKind { scenes, small, meshes, triangles, our_grid };
+inline constexpr std::string_view kSceneKinds[] = {"scenes", "small scenes", "meshes", "single triangles",
+                                                   "vertices on our grid"};
+
 struct SceneResult {
   Family family;
   std::string name, summary;
-  bool smallest;  // see LabScene
+  SceneKind kind;
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
   // Coverage and projection: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that
@@ -71,6 +76,7 @@ struct SceneResult {
   std::uint64_t covered = 0;
   std::uint64_t crossings = 0;         // coverage and projection: of edges with rows or columns of samples
   std::uint64_t shared_crossings = 0;  // coverage only: of edges that triangles share
+  std::uint64_t slits = 0;             // coverage only: of the exact picture; see lab::VisibleTriangleScore
   float largest_side_px = 0;           // coverage only: of the triangles' bounding boxes
   std::vector<MethodResult> methods;
 

@@ -63,14 +63,15 @@ face. Projection methods are compared with the source, and with its positions ro
 
 Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels,
 or per 10^6 faces. If no error was observed, the number in parentheses is the 95 % upper bound of
-the rate. Where one scene has more than half of a method's errors, the rate without it follows.
+the rate. Where one scene has more than half of a method's errors, all rates without it follow.
+Meshes, single triangles and scenes with vertices on our grid of 1/256 px have tables of their own.
 
 Cracks are samples at an edge that two triangles share, drawn by neither (gap) or by both (double
 hit), whatever lies behind. They share it if their vertices agree within 2^-10 px and 2^-20 of the
 depth range. Cracks are judged by exact coverage of the positions that the method uses, rounded as
-it rounds them, after unequal copies of a vertex are moved together. Cracks at T-junctions, and
-folds, where rounding lets neighbours overlap (it turned a triangle over), are counted apart; "-":
-it is not known how the peer rounds.
+it rounds them, after unequal copies of a vertex are moved together. Double hits include folds, where
+this rounding lets neighbours overlap. Cracks at T-junctions are counted apart. A slit is what a
+viewer sees of a crack or of a seam whose sides are farther apart: background one pixel wide.
 
 SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, or an
 .obj or .tri file. Large streams are judged in part, always the same part, and a smaller one with

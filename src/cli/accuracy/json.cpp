@@ -55,10 +55,10 @@ struct AddScore {
     method["cracks"] = {{"gaps", s.cracks.gaps},
                         {"double_hits", s.cracks.double_hits},
                         {"t_junctions", s.cracks.t_junctions}};
-    if (s.cracks.folds) method["cracks"]["folds"] = *s.cracks.folds;
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
     add_wrong_pixels(method["source"], s.visible.wrong_source);
     method["source"]["wrong_surface_pixels"] = s.visible.wrong_surface;
+    method["source"]["slits"] = s.visible.slits;
     const lab::CoverageMethod& scored = methods.find_coverage(method["name"].get<std::string>());
     if (scored.contract_depth && scored.info.exact)
       method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
@@ -100,13 +100,16 @@ struct AddScore {
 };
 
 Json scene_json(const SceneResult& scene, const ChosenMethods& methods) {
-  Json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"summary", scene.summary},
-              {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
-              {"covered", scene.covered}, {"smallest", scene.smallest},      {"methods", Json::array()}};
+  Json result{{"name", scene.name},       {"family", name_of(scene.family)},
+              {"summary", scene.summary}, {"width", scene.width},
+              {"height", scene.height},   {"triangles", scene.triangles},
+              {"covered", scene.covered}, {"kind", kSceneKinds[static_cast<std::size_t>(scene.kind)]},
+              {"methods", Json::array()}};
   if (scene.crossings != 0) result["crossings"] = scene.crossings;
   if (scene.family == Family::coverage) {
     result["shared_crossings"] = scene.shared_crossings;
     result["largest_side_px"] = scene.largest_side_px;
+    result["slits"] = scene.slits;
   }
   if (scene.family == Family::facing) result["faces"] = scene.triangles;
   for (const MethodResult& method : scene.methods) {

@@ -6,6 +6,18 @@
 
 namespace edgewise::tools {
 
+namespace {
+
+bool on_our_grid(const lab::CoverageScene& scene) {
+  constexpr int kOurs = 8;
+  const auto is_rounded = [](float px) { return lab::rounded_to(double{px}, kOurs) == double{px}; };
+  return std::ranges::all_of(scene.floats, [&](const lab::FloatTriangle& t) {
+    return std::ranges::all_of(t.at.x_px, is_rounded) && std::ranges::all_of(t.at.y_px, is_rounded);
+  });
+}
+
+}  // namespace
+
 void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult& result) {
   const auto& methods = judging.methods.coverage;
   const auto input = scene.input();
@@ -19,12 +31,17 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
   const lab::CrackJudge crack_judge(scene.floats, source.floats());
   result.shared_crossings = crack_judge.surface().crossings(scene.window());
   result.largest_side_px = lab::largest_side_px(scene.floats);
+  if (result.kind != SceneKind::small)
+    result.kind = on_our_grid(scene)             ? SceneKind::our_grid
+                  : result.shared_crossings != 0 ? SceneKind::meshes
+                                                 : SceneKind::triangles;
 
   result.methods.resize(methods.size());
   std::vector<Closeup> closeups(methods.size());
   std::mutex mutex;
   std::size_t done = 0;
-  const lab::VisibleTriangleJudge visible(scene, judging.plan.threads);
+  const lab::VisibleTriangleJudge visible(scene, crack_judge.surface(), judging.plan.threads);
+  result.slits = visible.slits();
   const auto judge_one = [&](std::size_t i) {
     const lab::CoverageMethod& method = *methods[i];
     const lab::DrawnRuns drawn(method, input, scene.window());

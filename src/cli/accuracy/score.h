@@ -37,7 +37,8 @@ struct Judging {
   std::vector<Closeup>& closeups;
 };
 
-// Fill in all of `result` except what identifies the scene (family, name, summary, smallest).
+// Fill in all of `result` except what identifies the scene (family, name, summary). Of coverage they set the
+// kind of a scene that is not small.
 void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult& result);
 void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResult& result);
 void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& result);

@@ -26,9 +26,9 @@ std::string rate(std::uint64_t errors, std::uint64_t trials) {
 // Sums a family's scenes per method.
 class FamilyTable {
  public:
-  FamilyTable(const AccuracyReport& report, Family family, bool smallest) {
+  FamilyTable(const AccuracyReport& report, Family family, SceneKind kind) {
     for (const SceneResult& scene : report.scenes) {
-      if (scene.family != family || scene.smallest != smallest) continue;
+      if (scene.family != family || scene.kind != kind) continue;
       scenes_.push_back(&scene);
       trials_ += scene.trials();
     }
@@ -54,21 +54,21 @@ class FamilyTable {
       most = std::max(most, at(std::get<Scores>(scene->methods[method].score), part, path...));
     return most;
   }
-  // None if those of a scene are not known.
-  std::optional<std::uint64_t> folds(std::size_t method) const {
+  std::uint64_t sum(std::uint64_t SceneResult::*count) const {
     std::uint64_t total = 0;
-    for (const SceneResult* scene : scenes_) {
-      const auto& folds = std::get<CoverageScores>(scene->methods[method].score).cracks.folds;
-      if (!folds) return std::nullopt;
-      total += *folds;
-    }
+    for (const SceneResult* scene : scenes_) total += scene->*count;
     return total;
   }
-  std::size_t scenes() const { return scenes_.size(); }
-  std::string title(std::string_view what, std::string_view trials) const {
+  // "coverage, meshes"
+  std::string subject() const {
     const SceneResult& first = *scenes_.front();
-    return fmt::format("\n{}: {}, {} {} in {} {}scene{}\n", name_of(first.family), what, trials_, trials,
-                       scenes_.size(), first.smallest ? "small " : "", scenes_.size() == 1 ? "" : "s");
+    const std::string_view kind = kSceneKinds[static_cast<std::size_t>(first.kind)];
+    return std::string(name_of(first.family)) +
+           (first.kind == SceneKind::scenes ? "" : ", " + std::string(kind));
+  }
+  std::string title(std::string_view what, std::string_view trials) const {
+    return fmt::format("\n{}: {}\n{} {} in {} scene{}\n", subject(), what, trials_, trials, scenes_.size(),
+                       scenes_.size() == 1 ? "" : "s");
   }
   // The scene with the highest error rate.
   std::string most_wrong_on(std::size_t method) const {
@@ -80,27 +80,34 @@ class FamilyTable {
     }
     return worst == nullptr ? "-" : worst->name;
   }
-  // For each scene that has more than half of the errors of some methods: their rates without it.
+  // For each scene that has more than half of the errors of some methods: the rates of all without it.
   std::string without_dominant() const {
     std::string text;
     for (const SceneResult* scene : scenes_) {
-      std::string line;
+      std::string dominated, line = "  without it:";
       for (std::size_t i = 0; i < methods(); ++i) {
         std::uint64_t all = 0;
         for (const SceneResult* other : scenes_) all += errors(other->methods[i].score);
         const std::uint64_t here = errors(scene->methods[i].score);
-        if (scenes_.size() == 1 || 2 * here <= all) continue;
-        const std::string item = fmt::format("{} {}", name(i), rate(all - here, trials_ - scene->trials()));
-        line += line.empty() ? fmt::format("over half on {}; without it:", scene->name) : ",";
-        const std::size_t column = line.size() - (line.rfind('\n') + 1);
-        line += (column + item.size() > 78 ? "\n  " : " ") + item;
+        if (2 * here > all) add_item(dominated, name(i));
+        add_item(line, fmt::format("{} {}", name(i), rate(all - here, trials_ - scene->trials())));
       }
-      if (!line.empty()) text += line + '\n';
+      if (scenes_.size() > 1 && !dominated.empty())
+        text += fmt::format("over half of the errors are on {}, of{}\n{}\n", scene->name, dominated, line);
     }
     return text;
   }
 
  private:
+  // Breaks lines.
+  static void add_item(std::string& list, std::string_view item) {
+    if (!list.empty() && list.back() != ':') list += ',';
+    constexpr std::size_t kColumns = 78, kIntroduction = 50;
+    const std::size_t last_break = list.rfind('\n');
+    const std::size_t column =
+        last_break == std::string::npos ? list.size() + kIntroduction : list.size() - last_break;
+    list += (column + item.size() > kColumns ? "\n  " : " ") + std::string(item);
+  }
   template <typename T>
   static T at(const T& value) {
     return value;
@@ -135,27 +142,31 @@ std::size_t last_width(const FamilyTable& t) {
 // Pixels with the wrong visible triangle, and depth errors.
 std::string visible_triangle_table(const FamilyTable& t) {
   std::string text = fmt::format(
-      "\ncoverage: pixels with the wrong visible triangle, and depth errors, in {} scene{}\n"
+      "\n{}: wrong pixels, and depth errors\n"
       "depth ulp: 2^-31 of the depth range for backends, a float's ulp for others\n",
-      t.scenes(), t.scenes() == 1 ? "" : "s");
-  constexpr const char* kLine = "{:<21}{:>9}{:>9}{:>10}{:>12}{:>9}\n";
-  text += fmt::format(kLine, "", "wrong", "wrong", "of those", "depth: max", "RMS");
-  text += fmt::format(kLine, "method", "snapped", "source", "through", "ulp", "ulp");
+      t.subject());
+  constexpr const char* kLine = "{:<21}{:>9}{:>9}{:>9}{:>8}{:>12}{:>9}\n";
+  text += fmt::format(kLine, "", "wrong", "wrong", "of those", "", "depth: max", "RMS");
+  text += fmt::format(kLine, "method", "snapped", "source", "through", "slits", "ulp", "ulp");
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto sum = [&](auto count) { return t.sum(i, &CoverageScores::visible, count); };
     const auto most = [&](auto figure) { return digits(t.most(i, &CoverageScores::visible, figure)); };
     using S = lab::VisibleTriangleScore;
     text += fmt::format(kLine, t.name(i), sum(&S::wrong_snapped), sum(&S::wrong_source),
-                        sum(&S::wrong_surface), most(&S::max_ulp), most(&S::rms_ulp));
+                        sum(&S::wrong_surface), sum(&S::slits), most(&S::max_ulp), most(&S::rms_ulp));
   }
-  return text + "through: showing neither the right triangle nor one that touches it\n";
+  return text + fmt::format(
+                    "through: showing neither the right triangle nor one that touches it\n"
+                    "slits: background one pixel wide between triangles of meshes; the exact picture\n"
+                    "has {}\n",
+                    t.sum(&SceneResult::slits));
 }
 
 std::string coverage_table(const FamilyTable& t) {
   std::string text = t.title("errors per 10^6 edge crossings", "crossings");
-  constexpr const char* kLine = "{:<21}{:>11}{:>11}{:>9}{:>9}{:>10}{:>8}\n";
-  text += fmt::format(kLine, "", "snapped", "source", "cracks:", "double", "at T-", "");
-  text += fmt::format(kLine, "method", "reference", "reference", "gaps", "hits", "junctions", "folds");
+  constexpr const char* kLine = "{:<21}{:>13}{:>13}{:>10}{:>10}{:>11}\n";
+  text += fmt::format(kLine, "", "snapped", "source", "cracks:", "double", "at T-");
+  text += fmt::format(kLine, "method", "reference", "reference", "gaps", "hits", "junctions");
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto errors = [&](lab::CoverageScore CoverageScores::*truth) {
       using S = lab::CoverageScore;
@@ -163,11 +174,12 @@ std::string coverage_table(const FamilyTable& t) {
     };
     const auto cracks = [&](auto count) { return t.sum(i, &CoverageScores::cracks, count); };
     using C = CrackCounts;
-    const auto folds = t.folds(i);
     text += fmt::format(kLine, t.name(i), errors(&CoverageScores::snapped), errors(&CoverageScores::source),
-                        cracks(&C::gaps), cracks(&C::double_hits), cracks(&C::t_junctions),
-                        folds ? std::to_string(*folds) : "-");
+                        cracks(&C::gaps), cracks(&C::double_hits), cracks(&C::t_junctions));
   }
+  if (const std::uint64_t shared = t.sum(&SceneResult::shared_crossings); shared != 0)
+    text += fmt::format("cracks: of {} crossings of shared edges; 0 is below {:.2g} per 10^6 (95 %)\n",
+                        shared, 1e6 * lab::rate_bound(shared));
   return text + t.without_dominant() + visible_triangle_table(t);
 }
 
@@ -276,8 +288,9 @@ std::string accuracy_tables(const AccuracyReport& report) {
                                                             clipping_table, projection_table};
   std::string text;
   for (const Family family : lab::kFamilies)
-    for (const bool smallest : {false, true})
-      if (const FamilyTable table(report, family, smallest); !table.empty())
+    for (const SceneKind kind :
+         {SceneKind::scenes, SceneKind::meshes, SceneKind::triangles, SceneKind::our_grid, SceneKind::small})
+      if (const FamilyTable table(report, family, kind); !table.empty())
         text += kTables[static_cast<std::size_t>(family)](table);
   if (report.turning_cube) text += cube_table(*report.turning_cube) + motion_table(report.motions);
   return text.substr(text.starts_with('\n') ? 1 : 0);

@@ -15,6 +15,10 @@ std::string value_text(double x) {
   return x < 1.0 ? fmt::format("{:.4g}", x) : fmt::format("{:.7g}", x);
 }
 
+std::uint64_t fewest_trials(const SweepResult& result) {
+  return std::ranges::min_element(result.at, {}, &Measured::fewest_trials)->fewest_trials();
+}
+
 // One method's curve in a sweep.
 struct Curve {
   const SweepResult& result;
@@ -35,11 +39,7 @@ struct Curve {
   }
   // 95 % upper bound of the rate, from the value with the fewest trials. Trials are not summed over values,
   // because all values may use the same scenes.
-  double bound() const {
-    std::uint64_t fewest = result.at.front().methods[method].trials;
-    for (const Measured& measured : result.at) fewest = std::min(fewest, measured.methods[method].trials);
-    return result.sweep->y.scale * lab::rate_bound(fewest);
-  }
+  double bound() const { return result.sweep->y.scale * lab::rate_bound(fewest_trials(result)); }
 };
 
 constexpr const char* kRow = "{:<20} {:>14} {:>11} {:>11} {:>11} {:>7}\n";
@@ -71,9 +71,10 @@ std::string stability_table(const SweepResult& result) {
   text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.summary, value_text(sweep.positions.front()),
                       value_text(sweep.positions.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
                       sweep.y.name);
-  text += fmt::format("  fails: more than {:.4g}\n", sweep.y.tolerance());
+  text += fmt::format("  fails: more than {:.4g}; at least {} trials at each value\n", sweep.y.tolerance(),
+                      fewest_trials(result));
   text += fmt::format(kRow, "method", "starts to fail", "error there", "max error", "at", "failing");
-  const auto methods = methods_of(sweep.family);
+  const auto methods = lab::swept_methods(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) text += row(methods[i].name, {result, i});
   return text;
 }
@@ -93,11 +94,12 @@ nlohmann::json sweep_json(const SweepResult& result) {
       {"summary", sweep.summary},
       {"x", {{"name", sweep.x.name}, {"unit", sweep.x.unit}, {"log", sweep.x.log}}},
       {"y", {{"name", sweep.y.name}, {"log", sweep.y.log}, {"tolerance", sweep.y.tolerance()}}},
+      {"why", sweep.why},
       {"curves", nlohmann::json::array()}};
   const std::size_t positions = result.at.size();
-  const auto methods = methods_of(sweep.family);
+  const auto methods = lab::swept_methods(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    nlohmann::json curve{{"method", methods[i].name}, {"exact", methods[i].exact}};
+    nlohmann::json curve{{"method", methods[i].name}, {"source", methods[i].source}};
     for (std::size_t position = 0; position < positions; ++position) {
       curve["points"].push_back({sweep.positions[position], Curve{result, i}.y(position)});
       curve["trials"].push_back(result.at[position].methods[i].trials);

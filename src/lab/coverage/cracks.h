@@ -87,7 +87,6 @@ struct Cracks {
   // Pixels of two triangles that share a vertex and overlap only after rounding: it turned one of them over,
   // or moved an outline across the other. Exact methods draw both.
   std::vector<Sample> folds;
-  bool folds_known = true;
 
   std::uint64_t at_shared_edges() const { return gaps.size() + double_hits.size(); }
   std::uint64_t at_t_junctions() const { return t_gaps.size() + t_double_hits.size(); }

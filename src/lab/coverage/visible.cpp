@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "edgewise/contract.h"
-#include "lab/coverage/cracks.h"
 #include "lab/projection/truth.h"
 
 namespace edgewise::lab {
@@ -58,6 +57,21 @@ void add_depth_errors(VisibleTriangleScore& score, const Canvas& canvas, const V
   if (count > 0) score.rms_ulp = std::sqrt(squares / static_cast<double>(count));
 }
 
+enum class Shown : std::uint8_t { background, single, mesh };
+
+std::uint64_t slits_of(const std::vector<Shown>& picture, Size size) {
+  std::uint64_t count = 0;
+  each_pixel(size, [&](int x, int y, std::size_t pixel) {
+    const auto between = [&](int at, int end, std::size_t step) {
+      return at > 0 && at + 1 < end && picture[pixel - step] == Shown::mesh &&
+             picture[pixel + step] == Shown::mesh;
+    };
+    count += picture[pixel] == Shown::background &&
+             (between(x, size.width, 1) || between(y, size.height, static_cast<std::size_t>(size.width)));
+  });
+  return count;
+}
+
 CoverageScene numbered(CoverageScene scene) {
   for (std::uint32_t i = 0; i < scene.floats.size(); ++i)
     scene.floats[i].payload = scene.snapped[i].payload = i + 1;
@@ -66,11 +80,28 @@ CoverageScene numbered(CoverageScene scene) {
 
 }  // namespace
 
-VisibleTriangleJudge::VisibleTriangleJudge(CoverageScene scene, int threads)
+VisibleTriangleJudge::VisibleTriangleJudge(CoverageScene scene, const Surface& surface, int threads)
     : scene_(numbered(std::move(scene))),
       by_grid_(exact_visible_triangles(std::span(scene_.snapped), scene_.window(), threads)),
       by_source_(scene_.truth ? scene_.truth->visible_triangles(scene_.window(), threads)
                               : exact_visible_triangles(std::span(scene_.floats), scene_.window(), threads)) {
+  for (std::uint32_t i = 0; i < scene_.floats.size(); ++i)
+    shares_edge_.push_back(surface.across(i, 0) != kNoTriangle || surface.across(i, 1) != kNoTriangle ||
+                           surface.across(i, 2) != kNoTriangle);
+}
+
+std::uint64_t VisibleTriangleJudge::slits() const {
+  std::vector<bool> shares;  // by triangle of the source
+  for (std::uint32_t i = 0; i < shares_edge_.size(); ++i) {
+    if (source(i) >= shares.size()) shares.resize(source(i) + 1, false);
+    shares[source(i)] = shares[source(i)] || shares_edge_[i];
+  }
+  std::vector<Shown> picture;
+  for (const std::uint32_t id : by_source_.triangle)
+    picture.push_back(id == kNoTriangle                  ? Shown::background
+                      : id < shares.size() && shares[id] ? Shown::mesh
+                                                         : Shown::single);
+  return slits_of(picture, scene_.size);
 }
 
 VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) const {
@@ -88,6 +119,14 @@ VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) c
         score.wrong_surface += drawn == kNoTriangle || expected == kNoTriangle ||
                                !touch(sources.outline(drawn), sources.outline(expected));
       });
+  std::vector<Shown> picture;
+  each_pixel(scene_.size, [&](int x, int y, std::size_t) {
+    const std::uint32_t payload = canvas.frame.payload_row(y)[x];
+    picture.push_back(payload == 0                ? Shown::background
+                      : shares_edge_[payload - 1] ? Shown::mesh
+                                                  : Shown::single);
+  });
+  score.slits = slits_of(picture, scene_.size);
   if (method.contract_depth) {
     add_depth_errors(score, canvas, by_grid_, in_scene, [&](int x, int y, double exact) {
       return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);

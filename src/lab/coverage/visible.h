@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lab/coverage/coverage.h"
+#include "lab/coverage/cracks.h"
 
 namespace edgewise::lab {
 
@@ -17,6 +18,10 @@ struct VisibleTriangleScore {
   // Pixels of wrong_source where something shows through: neither triangle of the two is a neighbour of the
   // other, which shares a vertex with it (see touch()), or only one of both is none.
   std::uint64_t wrong_surface = 0;
+  // Background pixels between two pixels, left and right or above and below, that both show a triangle which
+  // shares an edge. The exact picture has some, too: silhouettes that nearly meet, and seams whose sides lie
+  // too far apart to be one edge (cracks.h).
+  std::uint64_t slits = 0;
   // For exact methods that write contract depths: wrong_snapped pixels that the depth error of rule 6 does
   // not explain. The drawn triangle does not cover them, or lies farther behind the visible one than both
   // errors together.
@@ -32,8 +37,9 @@ struct VisibleTriangleScore {
 // Holds a picture's exact visible triangles by both truths, and scores methods against them.
 class VisibleTriangleJudge {
  public:
-  VisibleTriangleJudge(CoverageScene scene, int threads);
+  VisibleTriangleJudge(CoverageScene scene, const Surface& surface, int threads);
   VisibleTriangleScore score(const CoverageMethod& method) const;
+  std::uint64_t slits() const;  // of the source
 
  private:
   std::uint64_t unexplained(const Canvas& canvas) const;
@@ -41,7 +47,8 @@ class VisibleTriangleJudge {
   // The triangle of the source that triangle `i` of the scene comes from.
   std::uint32_t source(std::uint32_t i) const { return scene_.truth ? scene_.sources[i] : i; }
 
-  CoverageScene scene_;  // payloads number the triangles from 1
+  CoverageScene scene_;            // payloads number the triangles from 1
+  std::vector<bool> shares_edge_;  // by triangle of the scene
   VisibleTriangles by_grid_, by_source_;
 };
 

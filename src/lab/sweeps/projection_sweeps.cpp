@@ -1,4 +1,5 @@
 // Projection sweeps: the same sphere farther and farther from the origin of its mesh, and from the camera.
+#include "core/random.h"
 #include "lab/projection/projection.h"
 #include "lab/sweeps/sweeps.h"
 
@@ -6,9 +7,9 @@ namespace edgewise::lab {
 
 namespace {
 
-Measured measure_scene(Scene scene, bool quick) {
+Measured measure_scene(Scene scene) {
   const auto methods = projection_methods();
-  const ProjectionJudge judge(std::move(scene), quick ? Size{480, 270} : Size{1920, 1080}, 1);
+  const ProjectionJudge judge(std::move(scene), {480, 270}, 1);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i)
     result.methods[i] = {judge.score(methods[i]).wrong, judge.crossings()};
@@ -18,6 +19,7 @@ Measured measure_scene(Scene scene, bool quick) {
 }  // namespace
 
 std::vector<Sweep> projection_sweeps() {
+  constexpr std::string_view kRounding = "8 bits move a vertex by up to 1/512 px, and so do floats far away";
   constexpr YAxis kWrongSamples{"wrong samples per 10^6 edge crossings", true, 1e6};
   return {{"far_from_origin",
            Family::projection,
@@ -26,7 +28,12 @@ std::vector<Sweep> projection_sweeps() {
            kWrongSamples,
            10,
            powers_of_two(0, 16),
-           [](double away, bool quick, int) { return measure_scene(sphere_far_from_origin(away), quick); }},
+           [](double away, std::uint64_t seed) {
+             Scene scene = sphere_far_from_origin(away);
+             scene.camera.yaw += Random(seed).uniform(-0.05f, 0.05f);
+             return measure_scene(std::move(scene));
+           },
+           kRounding},
           {"far_from_camera",
            Family::projection,
            "a sphere far from the camera, as large in the picture",
@@ -34,9 +41,12 @@ std::vector<Sweep> projection_sweeps() {
            kWrongSamples,
            10,
            powers_of_two(2, 20),
-           [](double distance, bool quick, int) {
-             return measure_scene(sphere_far_from_camera(distance), quick);
-           }}};
+           [](double distance, std::uint64_t seed) {
+             Scene scene = sphere_far_from_camera(distance);
+             scene.instances.front().angle = Random(seed).uniform(0.0f, 6.28f);
+             return measure_scene(std::move(scene));
+           },
+           kRounding}};
 }
 
 }  // namespace edgewise::lab

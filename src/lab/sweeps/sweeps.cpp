@@ -17,6 +17,21 @@ Tally& Tally::operator+=(const Tally& other) {
   return *this;
 }
 
+Measured& Measured::operator+=(const Measured& other) {
+  for (std::size_t i = 0; i < methods.size(); ++i) methods[i] += other.methods[i];
+  return *this;
+}
+
+std::uint64_t Measured::fewest_trials() const {
+  return std::ranges::min(methods, {}, &Tally::trials).trials;
+}
+
+std::vector<MethodInfo> swept_methods(Family family) {
+  if (family == Family::coverage) return swept_coverage_methods();
+  if (family == Family::facing) return swept_facing_methods();
+  return methods_of(family);
+}
+
 std::span<const Sweep> sweeps() {
   static const std::vector<Sweep> list = [] {
     std::vector<Sweep> all;
@@ -43,13 +58,20 @@ double SweepResult::y(const Tally& tally) const {
   return sweep->y.scale * static_cast<double>(tally.errors) / static_cast<double>(tally.trials);
 }
 
-SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position,
-                      int subpixel_bits) {
+Measured measure(const Sweep& sweep, double position, Effort effort) {
+  Measured sum(swept_methods(sweep.family).size());
+  for (std::uint64_t seed = 1; seed <= effort.scenes || sum.fewest_trials() < effort.trials; ++seed)
+    sum += sweep.measure(position, seed);
+  return sum;
+}
+
+SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads,
+                      const std::function<void()>& on_position) {
   SweepResult result{&sweep, std::vector<Measured>(sweep.positions.size(), Measured(0))};
   std::mutex mutex;
   parallel_for(threads, static_cast<int>(sweep.positions.size()), [&](int i) {
     const auto position = static_cast<std::size_t>(i);
-    result.at[position] = sweep.measure(sweep.positions[position], quick, subpixel_bits);
+    result.at[position] = measure(sweep, sweep.positions[position], effort);
     const std::lock_guard lock(mutex);
     on_position();
   });

@@ -1,5 +1,5 @@
 // Stability sweeps: one parameter of a scene goes from easy to hard. At each position the errors of every
-// method of a family are counted, which shows where each method starts to fail.
+// method of a family are counted on random scenes, which shows where each method starts to fail.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,10 @@ struct Tally {
 // The counts at one position of a sweep.
 struct Measured {
   explicit Measured(std::size_t method_count) : methods(method_count) {}
+  Measured& operator+=(const Measured& other);
+  std::uint64_t fewest_trials() const;
 
-  std::vector<Tally> methods;  // in the order of the family's registry
+  std::vector<Tally> methods;  // in the order of swept_methods()
 };
 
 struct XAxis {
@@ -40,6 +42,12 @@ struct YAxis {
   double tolerance() const { return scale * 1e-4; }
 };
 
+// A point has at least so many trials, on at least so many scenes.
+struct Effort {
+  std::uint64_t trials, scenes;
+};
+inline constexpr Effort kFull{100'000, 4}, kQuick{5'000, 1};
+
 struct Sweep {
   std::string_view name;
   Family family;
@@ -48,10 +56,16 @@ struct Sweep {
   YAxis y;
   double cost;                    // estimated seconds on one core, for estimates of the remaining time
   std::vector<double> positions;  // positions on the x axis, from easy to hard
-  // Scores all methods at one position on the same scenes, on fewer if `quick`. Coverage backends get
-  // positions of so many subpixel bits. Deterministic and thread-safe.
-  Measured (*measure)(double position, bool quick, int subpixel_bits);
+  // Scores all methods at one position on one scene, another one for each seed. Deterministic and
+  // thread-safe. Has trials at every position.
+  Measured (*measure)(double position, std::uint64_t seed);
+  std::string_view why = "";  // ours fail, if they do
 };
+
+// The methods of the family; of ours in coverage and facing, one for each of 8, 12 and 15 subpixel bits.
+std::vector<MethodInfo> swept_methods(Family family);
+std::vector<MethodInfo> swept_coverage_methods();
+std::vector<MethodInfo> swept_facing_methods();
 
 // One table per family, in a file of its name.
 std::vector<Sweep> coverage_sweeps();
@@ -76,8 +90,10 @@ struct SweepResult {
 };
 
 // Calls `on_position` after each position, from one thread at a time.
-SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position,
-                      int subpixel_bits = 8);
+SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads,
+                      const std::function<void()>& on_position);
+// One position of it.
+Measured measure(const Sweep& sweep, double position, Effort effort);
 
 // Positions for the x axis: 2^from, 2^(from ± 1), … 2^to.
 std::vector<double> powers_of_two(int from, int to);

@@ -1,6 +1,7 @@
 // Visibility sweeps: the distance between two planes, the number of bars in a cycle, the width of slivers.
 #include <numbers>
 
+#include "core/random.h"
 #include "core/trigonometry.h"
 #include "lab/sweeps/sweeps.h"
 #include "lab/visibility/visibility.h"
@@ -24,14 +25,15 @@ Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
   return result;
 }
 
-Measured measure_separation(double distance, double separation) {
-  return measure_scene(two_planes(distance, separation, 0.1, 1000),
+Measured measure_separation(double distance, double separation, std::uint64_t seed) {
+  Random random(seed);
+  return measure_scene(two_planes(distance, separation, 0.1, 1000, double{random.uniform(0.05f, 0.15f)}),
                        [](const VisibilityScore& s) { return s.wrong_triangle; });
 }
 
 // Bars around a ring. Each is broad and near the camera at its start, where it occludes the far tip of the
-// previous one. With one or two bars the ring is open.
-VisibilityScene ring_of_bars(int bars) {
+// previous one. With one or two bars the ring is open. `turn`: of the ring, in radians.
+VisibilityScene ring_of_bars(int bars, double turn) {
   constexpr float kNear = 2, kFar = 4;
   const double step = 2 * std::numbers::pi / std::max(bars, 3);
   Scene scene;
@@ -42,8 +44,8 @@ VisibilityScene ring_of_bars(int bars) {
   for (int bar = 0; bar < bars; ++bar) {
     // Angles in units of the step from bar to bar. Down the screen is -y.
     const auto add = [&](double angle, float radius, float z) {
-      const auto turn = static_cast<float>((bar + angle) * step);
-      mesh.positions.push_back(z * glm::vec3(radius * cosine(turn), -radius * sine(turn), -1.0f));
+      const auto at = static_cast<float>((bar + angle) * step + turn);
+      mesh.positions.push_back(z * glm::vec3(radius * cosine(at), -radius * sine(at), -1.0f));
     };
     const auto first = static_cast<unsigned>(mesh.positions.size());
     add(-0.1, 0.40f, kNear);
@@ -55,41 +57,48 @@ VisibilityScene ring_of_bars(int bars) {
   return visibility_scene(scene, {256, 192});
 }
 
-Measured measure_cycle(double bars, bool, int) {
-  return measure_scene(ring_of_bars(static_cast<int>(bars)),
+Measured measure_cycle(double bars, std::uint64_t seed) {
+  Random random(seed);
+  return measure_scene(ring_of_bars(static_cast<int>(bars), double{random.uniform(0.0f, 6.28f)}),
                        [](const VisibilityScore& s) { return s.wrong_triangle; });
 }
 
-Measured measure_sliver_depth(double aspect, bool, int) {
-  return measure_scene(slivers(aspect),
+Measured measure_sliver_depth(double aspect, std::uint64_t seed) {
+  Random random(seed);
+  const double nearest = double{random.uniform(5.0f, 20.0f)};
+  return measure_scene(slivers(aspect, nearest, nearest + double{random.uniform(20.0f, 60.0f)}),
                        [](const VisibilityScore& s) { return s.wrong_triangle + s.out_of_range; });
 }
 
 }  // namespace
 
 std::vector<Sweep> visibility_sweeps() {
+  constexpr std::string_view kDepthBits =
+      "31 bits of depth err by up to 34 units: z^2 / (2^26 near) at a distance z";
   return {{"separation_at_10",
            Family::visibility,
            "two tilted planes at z = 10, in either order; near 0.1, far 1000",
            {"separation", "", true},
            kWrongTriangles,
-           0.1,
+           2.5,
            decades(0, -8),
-           [](double separation, bool, int) { return measure_separation(10, separation); }},
+           [](double separation, std::uint64_t seed) { return measure_separation(10, separation, seed); },
+           kDepthBits},
           {"separation_at_100",
            Family::visibility,
            "two tilted planes at z = 100, in either order; near 0.1, far 1000",
            {"separation", "", true},
            kWrongTriangles,
-           0.1,
+           2.5,
            decades(1, -7),
-           [](double separation, bool, int) { return measure_separation(100, separation); }},
+           [](double separation, std::uint64_t seed) { return measure_separation(100, separation, seed); },
+           kDepthBits},
           {"cycle",
            Family::visibility,
            "bars, each over the end of the previous one; three or more form a cycle",
            {"bars", "", false},
            kWrongTriangles,
-           0.1,
+           2.5,
            {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24},
            measure_cycle},
           {"sliver_depth",
@@ -97,7 +106,7 @@ std::vector<Sweep> visibility_sweeps() {
            "slivers: visible triangles, and depths outside the triangle's own range",
            {"length over width", "", true},
            {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
-           0.4,
+           8,
            decades(1, 5),
            measure_sliver_depth}};
 }

@@ -142,10 +142,10 @@ std::span<const VisibilityCase> visibility_cases() {
   return kCases;
 }
 
-VisibilityScene two_planes(double distance, double separation, double near_z, double far_z) {
+VisibilityScene two_planes(double distance, double separation, double near_z, double far_z, double tilt) {
   Builder builder(kSize, near_z, far_z);
   const auto quad = [&](double nearer, double top, double bottom) {
-    const double left = 0.9 * distance - nearer, right = 1.1 * distance - nearer;
+    const double left = (1 - tilt) * distance - nearer, right = (1 + tilt) * distance - nearer;
     const auto at = [](double x, double y, double z) { return glm::dvec3(x * z, y * z, z); };
     builder.quad(at(-0.6, top, left), at(0.6, top, right), at(0.6, bottom, right), at(-0.6, bottom, left));
   };
@@ -154,7 +154,7 @@ VisibilityScene two_planes(double distance, double separation, double near_z, do
   return builder.take();
 }
 
-VisibilityScene slivers(double aspect) {
+VisibilityScene slivers(double aspect, double nearest, double farthest) {
   using namespace contract;
   constexpr int kSide = 1024, kReach = 500;  // px
   const double near_z = 0.5, far_z = 100;
@@ -169,8 +169,10 @@ VisibilityScene slivers(double aspect) {
       const auto third =
           x + (std::max(1, static_cast<std::int32_t>(std::min(width_sub, Coarse::kGuardSub / 2.0)))
                << Coarse::kSpareBits);
-      VisibilityTriangle t{
-          {{sample_q15(kSide / 2), x, third}, {sample_q15(kSide / 2), y, y}, {}, 0}, {}, {}, {10, 10, 50}};
+      VisibilityTriangle t{{{sample_q15(kSide / 2), x, third}, {sample_q15(kSide / 2), y, y}, {}, 0},
+                           {},
+                           {},
+                           {nearest, nearest, farthest}};
       for (int i = 0; i < 3; ++i) {
         t.screen.z[i] = front_end_depth(t.view_z[i], near_z, far_z);
         t.x_px[i] = static_cast<float>(t.screen.x_q15[i]) / kPixel_q15;

@@ -112,11 +112,12 @@ std::span<const VisibilityCase> visibility_cases();
 
 // For sweeps: two planes `separation` apart, tilted about `distance`. In the upper half of the view the
 // farther one is submitted first, in the lower half the nearer one, so that no order of submission is
-// favoured.
-VisibilityScene two_planes(double distance, double separation, double near_z, double far_z);
-// For sweeps: thin triangles in many directions, whose distance changes from 10 to 50 across their width.
-// `aspect` is length over horizontal width, at most 2^17: thinner triangles have no area.
-VisibilityScene slivers(double aspect);
+// favoured. From left to right their distance changes by 2 tilt distance.
+VisibilityScene two_planes(double distance, double separation, double near_z, double far_z,
+                           double tilt = 0.1);
+// For sweeps: thin triangles in many directions, whose distance changes across their width. `aspect` is
+// length over horizontal width, at most 2^17: thinner triangles have no area.
+VisibilityScene slivers(double aspect, double nearest = 10, double farthest = 50);
 // The front end's triangles of a scene, together with the true distances of their vertices.
 VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull = Cull::none);
 // The same for triangles that the front end has made already. Payloads must be ids, in ascending order.
