@@ -454,7 +454,7 @@ Then the wrong pixels of each level while all else is exact, per frame:
 
 Levels, from the least precise on; triangles are numbered in submission order, from 0:
 
-  near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them;
+  near, far plane, guard band  what to do with triangles beyond it: nothing, drop or clip them;
                                "proven" follows from the ranges of the vertices
   facing test                  none, by three normals, by the area in floats, by the snapped area
   subpixel bits                0 to 8 bits, of the snapped vertices

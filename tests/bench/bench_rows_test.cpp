@@ -246,16 +246,14 @@ TEST(BenchMethods, AreTimedOnScenesOfEachFamily) {
     }
     return count;
   };
-  std::map<std::string, int> count = counts(false), quick = counts(true);
+  std::map<std::string, int> count = counts(false);
   EXPECT_EQ(count.size(), 8u);
   EXPECT_EQ(count["coverage mesh_on_grid"], count["coverage torus-knot"]);
   EXPECT_EQ(count["coverage mesh"], count["coverage torus-knot"]);
   EXPECT_EQ(count["visibility deep_soup"], static_cast<int>(lab::visibility_methods().size()));
   EXPECT_EQ(count["facing edge_on_faces"], static_cast<int>(lab::facing_methods().size()));
   EXPECT_EQ(count["clipping around_the_eye"], static_cast<int>(lab::clipping_methods().size()));
-  EXPECT_EQ(quick.size(), 2u) << "only coverage, and not the scene mesh";
-  EXPECT_GE(quick["coverage torus-knot"], static_cast<int>(lab::coverage_methods().size()));
-  EXPECT_LT(quick["coverage torus-knot"], count["coverage torus-knot"]) << "on one thread";
+  EXPECT_TRUE(counts(true).empty()) << "the main chart has rows of its own";
 }
 
 TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {

@@ -69,9 +69,9 @@ Meshes, single triangles and scenes with vertices on our grid of 1/256 px have t
 Cracks are samples at an edge that two triangles share, drawn by neither (gap) or by both (double
 hit), whatever lies behind. They share it if their vertices agree within 2^-10 px and 2^-20 of the
 depth range. Cracks are judged by exact coverage of the positions that the method uses, rounded as
-it rounds them, after unequal copies of a vertex are moved together. Double hits include folds, where
-this rounding lets neighbours overlap. Cracks at T-junctions are counted apart. A slit is what a
-viewer sees of a crack or of a seam whose sides are farther apart: background one pixel wide.
+it rounds them, after unequal copies of a vertex are moved together. Double hits include folds,
+where this rounding lets neighbours overlap. Cracks at T-junctions are counted apart. A slit is what
+a viewer sees of a crack or of a seam whose sides are farther apart: background one pixel wide.
 
 SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, choice
 (whole frames, from a scene's vertices to the picture), or an .obj or .tri file. Large streams are
