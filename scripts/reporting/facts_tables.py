@@ -127,7 +127,8 @@ def over_exact(bench, scene, number):
 
 
 def pipelines_table(found, bench):
-    """Header and lines: of each scene its least precise pipelines, which were drawn and timed as a whole, the fastest first."""
+    """Header and lines: of each scene its least precise pipelines, which were drawn and timed as a whole, the fastest first. Pipelines that
+    differ in the facing test alone share a line, with the speed-up of the fastest."""
     lines = []
     for scene, (entry, _, _) in found.items():
         timed = [(bench.find(f"needs/{scene}/pipeline:{i}/threads:1"), i, levels) for i, levels in enumerate(entry["minima"], 1)]
@@ -136,19 +137,26 @@ def pipelines_table(found, bench):
         if not rows:
             closest = entry["closest"]
             rows = [(closest["levels"], f"not right: {closest['worst_px']:,} wrong px in a frame")]
-        lines += [[named(scene, entry), clipping(levels), *(titled(levels.get(stage, "–")) for stage in (FACING, VISIBILITY, DEPTH)),
-                   levels[BITS].split()[0], said] for levels, said in rows]
+        merged = {}
+        for levels, said in rows:
+            key = clipping(levels), titled(levels.get(VISIBILITY, "–")), titled(levels.get(DEPTH, "–")), levels[BITS].split()[0]
+            merged.setdefault(key, ([], said))[0].append(titled(levels.get(FACING, "–")))
+        lines += [[named(scene, entry), clipped, " or ".join(tests), *rest, said] for (clipped, *rest), (tests, said) in merged.items()]
     return ["scene", "clipping", FACING, VISIBILITY, "depth", BITS, "speed-up over exact"], lines
 
 
 def depth_table(found):
-    """Header and lines, a line per scene: the formats that are enough for its near and far plane, all else exact."""
+    """Header and lines: the formats that are enough for the near and far plane of scenes, all else exact. Scenes of the same answers share
+    a line."""
     def cell(level):
         return "enough" if level["enough"] else f"{level['worst_px']:,} wrong px"
 
-    return (["scene", "near", "far", *FORMATS],
-            [[named(scene, entry), *(f"{entry[key]:.4g}" if key in entry else "–" for key in ("near_z", "far_z")),
-              *(cell(curves[DEPTH][level]) for level in FORMATS.values())] for scene, (entry, _, curves) in found.items()])
+    lines = {}
+    for scene, (entry, _, curves) in found.items():
+        figures = (*(f"{entry[key]:.4g}" if key in entry else "–" for key in ("near_z", "far_z")),
+                   *(cell(curves[DEPTH][level]) for level in FORMATS.values()))
+        lines.setdefault(figures, []).append(named(scene, entry))
+    return ["scene", "near", "far", *FORMATS], [[", ".join(names), *figures] for figures, names in lines.items()]
 
 
 def edges_table(found):

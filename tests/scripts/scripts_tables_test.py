@@ -209,10 +209,10 @@ class NeedsTest(FolderTest):
         depth = {**PIPELINE, "near plane": "clip", "visibility": "depth buffer", "depth buffer": "6 bits", "subpixel bits": "1 bit"}
         timed = bench({"needs/cube/pipeline:1/threads:1": 4.0, "needs/cube/pipeline:2/threads:1": 2.0, "needs/cube/pipeline:exact/threads:1": 4.0})
         stream = {"visibility": "submission_order", "subpixel bits": "0 bits"}
-        header, lines = pipelines_table(self.read(entry("cube", [PIPELINE, depth]), entry("grid", [stream]),
+        header, lines = pipelines_table(self.read(entry("cube", [PIPELINE, depth, {**PIPELINE, "facing test": "normal_z"}]), entry("grid", [stream]),
                                                   entry("cubes", closest={"levels": PIPELINE, "worst_px": 1234})), timed)
         self.assertEqual(lines, [["cube (3 frames)", "clip at the near plane", "no test", "depth buffer", "6 bits", "1", "2.0×"],
-                                 ["cube (3 frames)", "nothing", "no test", "`painter_mean`", "–", "6", "1.00× (not settled)"],
+                                 ["cube (3 frames)", "nothing", "no test or `normal_z`", "`painter_mean`", "–", "6", "1.00× (not settled)"],
                                  ["grid (3 frames)", "–", "–", "`submission_order`", "–", "0", "–"],
                                  ["cubes (3 frames)", "nothing", "no test", "`painter_mean`", "–", "6", "not right: 1,234 wrong px in a frame"]])
         self.assertEqual(len(header), 7)
@@ -222,10 +222,10 @@ class NeedsTest(FolderTest):
             title: f"{said}: cube (3 frames), sphere (3 frames)" for title, said in
             {"no crack or fold": "1 bit", "no worse than 8 bits": "8 bits", "edge values": "32-bit integers"}.items()})
 
-    def test_depth_formats_have_a_line_per_scene(self):
-        self.assertEqual(depth_table(self.read(entry("cube", [PIPELINE], near_z=0.1, far_z=100), entry("grid", [PIPELINE])))[1], [
+    def test_scenes_of_the_same_depth_formats_share_a_line(self):
+        self.assertEqual(depth_table(self.read(entry("cube", [PIPELINE], near_z=0.1, far_z=100), *(entry(name, [PIPELINE]) for name in ("grid", "quads"))))[1], [
             ["cube (3 frames)", "0.1", "100", "1 wrong px", "enough", "4 wrong px", "5 wrong px", "enough"],
-            ["grid (3 frames)", "–", "–", "1 wrong px", "enough", "4 wrong px", "5 wrong px", "enough"]])
+            ["grid (3 frames), quads (3 frames)", "–", "–", "1 wrong px", "enough", "4 wrong px", "5 wrong px", "enough"]])
 
     def test_tutorials_have_more_than_needed_or_less(self):
         _, lines = tutorials_table(self.read(entry("cube", [PIPELINE])))
