@@ -267,6 +267,7 @@ folder = Path(sys.argv[sys.argv.index("--out") + 1])
 folder.mkdir()
 (folder / "choice.svg").write_text(" ".join(sys.argv))
 """)
+        self.file("root/scripts/reporting/corner_picture.py", "")  # reads pictures
         before = self.outside_build()
         result = self.run_script("run", "--no-install", *arguments)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)

@@ -288,8 +288,8 @@ class ScriptsTest(FolderTest):
         for words in ("ERROR in 50 benchmark rows", "6 pixels differ; see crowded/verify-failures/", "tiled on cube and knot.",
                       "tiled against ext, 4.0× to 8.0× faster in 2 of 2 scenes.", "Chart: crowded/charts/choice.svg", "Pictures: facts/pictures", "scripts/run --full"):
             self.assertIn(words, text)
-        for bench_file in ROOT.glob("results/*/bench.json"):
-            self.assertRegex(summary(bench_file.parent), r"against llvmpipe, \S+ to")
+        for whole in ROOT.glob("results/*/verify.json"):
+            self.assertRegex(summary(whole.parent), r"against llvmpipe, \S+ to")
 
     def test_malformed_laboratory_gets_one_line(self):
         data = accuracy()
