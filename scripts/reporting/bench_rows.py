@@ -3,7 +3,7 @@ it holds of each row only what reports use, as compact() writes it.
 
 A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
 BACKEND+frontend, "cell" for a whole frame of factors.py, "choice" for one of choice.py, "lab" for a method of the
-laboratory, or "needs" for a pipeline of it. Older results have rows random_read/WHERE, too, which measure the machine and draw nothing.
+laboratory, or "needs" for a pipeline of it.
 """
 import os
 from dataclasses import dataclass, field
@@ -177,7 +177,7 @@ def read_bench(folder_or_file):
     rounds = int(context.get("rounds", 0))  # of most rows; older runs shuffled all repetitions
     for row in rows.values():
         row.rounds = 0 < rounds <= len(row.times_ms)
-    return Bench(context, {name: row for name, row in rows.items() if row.backend != "random_read"})
+    return Bench(context, rows)
 
 
 def describe_machine(machine):

@@ -16,7 +16,7 @@ from tables import short  # noqa: E402
 
 # Okabe and Ito, "Color Universal Design", 2008.
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
-BLACK, INK, FAINT = "#000000", "#24292f", "#6e7781"
+INK, FAINT = "#24292f", "#6e7781"
 BAND = "#f0f2f4"  # behind a special part of an axis
 
 BACKENDS = {"scanline": (BLUE, "o"), "naive": (ORANGE, "s"), "tiled": (GREEN, "^")}

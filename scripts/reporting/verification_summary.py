@@ -74,12 +74,6 @@ def verify_lines(data):
     yield ["Backends compared, bit for bit", extent, none_or(differing, "pixel differs", "pixels differ")]
 
 
-def verify_sentence(verify, where=""):
-    """`where`: of pixels that differ."""
-    extent, differing = compared(verify)
-    return f"{extent}, were compared bit for bit: {f'**{differing:,} pixels differ**{where}' if differing else '**no bit differs**'}."
-
-
 LINES = {"verify": verify_lines, "tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "random": random_lines}
 
 

@@ -411,5 +411,17 @@ TEST(VerifyRandomProgram, RunsTheDocumentedLinesOfEachShard) {
   EXPECT_EQ(lines, 2) << "Slurm and GNU parallel";
 }
 
+TEST(RandomCases, KeepTheGuardBandAtEverySize) {
+  for (const std::string_view family : lab::triangle_families())
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      const int width = seed % 2 == 0 ? contract::kMaxImageSide : 1 + static_cast<int>(seed);
+      for (const ScreenTriangle& t : lab::adversarial(family, 300, width, contract::kMaxImageSide, seed))
+        for (const auto* coordinates : {t.x_q15, t.y_q15})
+          for (int i = 0; i < 3; ++i)
+            ASSERT_LE(std::abs(coordinates[i]), contract::kGuard_q15) << family << ", seed " << seed;
+    }
+}
+
 }  // namespace
+
 }  // namespace edgewise::randomized

@@ -70,7 +70,7 @@ import json, os, sys
 from pathlib import Path
 name, command, *options = Path(sys.argv[0]).name, *sys.argv[1:], ""
 with open(os.environ["CALLS"], "a") as calls:
-    print(name, command, file=calls)
+    print(name, command, *options[:1], file=calls)
 written = {{"verify": %s, "accuracy": %s}}
 for option, value in zip(options, options[1:]):
     if option in ("--json", "-o") and value.startswith("build") and not Path(value).is_dir():
@@ -282,7 +282,7 @@ folder.mkdir()
         told = self.ran()
         calls = [line for line in self.calls.read_text().splitlines() if "-S" not in line]
         order = [next(i for i, call in enumerate(calls) if re.search(what, call)) for what in
-                 ("cmake .* edgewise_first$", "first render", "first verify", "cmake .* edgewise_bench$", "bench --quick")]
+                 ("cmake .* edgewise_first$", "first render", "first verify", "cmake .* edgewise_bench$", "accuracy choice", "bench --quick")]
         self.assertEqual(order, sorted(order))
         self.assertLess(max(map(len, told.split("\n\n", 1)[1].splitlines())), 81)
         self.assertIn("\nChart:    build/first-results/mine/charts/choice.svg\nPictures: build/first-results/facts/pictures\n", told)

@@ -178,13 +178,6 @@ class ScriptsTest(FolderTest):
         self.assertIn(" 0 faster", result.stdout)
         self.assertRegex(result.stdout, r"\nGeometric means of the ratios: [^\n]+, tiled 1\.476, all 1\.\d+\n$")
 
-    def test_rows_of_older_results_that_draw_nothing_are_left_out(self):
-        older = bench()
-        older["benchmarks"] += entries("random_read/memory", [1.8], reads=10e3)
-        result = run("compare", "--all", self.results, self.write("older", older))
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertNotIn("random_read/", result.stdout)
-
     def test_compare_sets_other_work_apart(self):
         data = bench()
         for row in data["benchmarks"]:
