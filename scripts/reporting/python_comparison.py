@@ -113,9 +113,10 @@ def timed(drawers, mesh, view, rounds):
     found = {}
     for i in range(rounds):
         for drawer in drawers[::-1] if i % 2 else drawers:
-            times = found.setdefault(drawer.name, {}).setdefault(drawer.threads, {"load": [], "draw": []})
+            times = found.setdefault(drawer.name, {}).setdefault(drawer.threads, {"load": [], "draw": [], "redraw": []})
             times["load"].append(round(drawer.ms(view, 1, mesh), 4))
             times["draw"].append(round(drawer.ms(view, CALLS), 4))
+            times["redraw"].append(round(drawer.ms(view, CALLS, again=True), 4))
     return found
 
 

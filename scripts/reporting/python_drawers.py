@@ -1,5 +1,6 @@
 """Python packages that draw the ids and depths of the triangles that a camera sees, each in a process of its own. A drawer's load()
-takes a mesh, draw() returns two arrays. Ids count in the lowest 24 bits, where background is all ones; row 0 is the top.
+takes a mesh, draw() returns two arrays: new ones, or with again=True those that it returned last, for the same view size. Ids count in
+the lowest 24 bits, where background is FIRST_ID - 1; row 0 is the top.
 
 Every drawer gets as many cores as it has threads, and the fastest settings that we found.
 """
@@ -35,6 +36,8 @@ class View:
 
 
 class Edgewise:
+    FIRST_ID = 0
+
     def __init__(self, threads):
         import edgewise
         self.edgewise, self.threads, self.version = edgewise, threads, "Edgewise"
@@ -42,9 +45,11 @@ class Edgewise:
     def load(self, mesh):
         self.scene = self.edgewise.Scene(mesh.positions, mesh.triangles)
 
-    def draw(self, view):
+    def draw(self, view, again=False):
         projection = self.edgewise.intrinsics(view.k, *view.size, view.near, view.far, first_centre=0.5)
-        return self.scene.draw(self.edgewise.Camera(view.world_to_camera, projection), view.size, ids=True, threads=self.threads)
+        self.frame = self.scene.draw(self.edgewise.Camera(view.world_to_camera, projection), view.size, ids=True, threads=self.threads,
+                                     onto=self.frame if again else None, clear=again)
+        return self.frame
 
     def distance(self, view, depth):
         return view.distance(self.edgewise.depth01(depth))
@@ -65,6 +70,7 @@ def llvmpipe_of(renderer, version):
 class Vtk:
     """Each triangle's colour is its id, without light, smoothing or multisampling; depth is the z-buffer. Debian's VTK draws through
     an X server only, here Xvfb, and Mesa's llvmpipe draws in this process."""
+    FIRST_ID = 0
 
     def __init__(self, threads):
         use_llvmpipe(threads)
@@ -103,7 +109,7 @@ class Vtk:
         mesh_of_vtk.GetCellData().SetScalars(self.numpy.numpy_to_vtk(self.kept[2]))
         self.mapper.SetInputData(mesh_of_vtk)
 
-    def draw(self, view):
+    def draw(self, view, again=False):
         width, height = view.size
         rotation, moved = view.world_to_camera[:3, :3], view.world_to_camera[:3, 3]
         eye = -rotation.T @ moved
@@ -114,7 +120,9 @@ class Vtk:
         self.camera.SetClippingRange(view.near, view.far)
         self.window.SetSize(width, height)
         self.window.Render()
-        colours, depth = self.core.vtkUnsignedCharArray(), self.core.vtkFloatArray()
+        if not again:
+            self.arrays = self.core.vtkUnsignedCharArray(), self.core.vtkFloatArray()
+        colours, depth = self.arrays
         self.window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, colours)
         self.window.GetZbufferData(0, 0, width - 1, height - 1, depth)
         ids = self.numpy.vtk_to_numpy(colours).view("<u4")
@@ -125,14 +133,15 @@ class Vtk:
 
 
 class ModernGl:
-    """The least that OpenGL does: one draw call, whose shader writes the triangle's number as a colour, and a read of both planes."""
+    """The least that OpenGL does: one draw call, whose shader writes the triangle's number, and a read of both planes."""
+    FIRST_ID = 1  # glClear() leaves integers other than 0 undefined
     VERTEX = """#version 330
         uniform mat4 to_clip;
         in vec3 position;
         void main() { gl_Position = to_clip * vec4(position, 1.0); }"""
     FRAGMENT = """#version 330
-        out vec4 colour;
-        void main() { colour = vec4(gl_PrimitiveID & 255, gl_PrimitiveID >> 8 & 255, gl_PrimitiveID >> 16, 255) / 255.0; }"""
+        out uint id;
+        void main() { id = uint(gl_PrimitiveID + 1); }"""
 
     def __init__(self, threads):
         use_llvmpipe(threads)
@@ -149,19 +158,21 @@ class ModernGl:
         self.mesh = self.context.vertex_array(self.program, [(self.context.buffer(mesh.positions), "3f", "position")],
                                               self.context.buffer(mesh.triangles))
 
-    def draw(self, view):
+    def draw(self, view, again=False):
         width, height = view.size
         if self.frame is None or self.frame.size != view.size:
-            self.frame = self.context.framebuffer(self.context.texture(view.size, 4), self.context.depth_texture(view.size))
+            self.frame = self.context.framebuffer(self.context.texture(view.size, 1, dtype="u4"), self.context.depth_texture(view.size))
             self.frame.use()
         span = view.far - view.near
         to_clip = np.array([[2 * view.k[0, 0] / width, 0, 0, 0], [0, -2 * view.k[1, 1] / height, 0, 0],
                             [0, 0, (view.far + view.near) / span, -2 * view.far * view.near / span], [0, 0, 1, 0]]) @ view.world_to_camera
         self.program["to_clip"].write(to_clip.T.astype(np.float32).tobytes())
-        self.frame.clear(1, 1, 1, 1)
+        if not again:
+            self.arrays = np.empty((height, width), "<u4"), np.empty((height, width), np.float32)
+        ids, depth = self.arrays
+        self.frame.clear()
         self.mesh.render()
-        ids, depth = np.empty((height, width), "<u4"), np.empty((height, width), np.float32)
-        self.frame.read_into(ids, components=4)
+        self.frame.read_into(ids, components=1, dtype="u4")
         self.frame.read_into(depth, components=1, attachment=-1, dtype="f4")
         return ids[::-1], depth[::-1]
 
@@ -189,24 +200,24 @@ def serve(pipe, name, threads):
         drawer = DRAWERS[name](threads)
         pipe.send(drawer.version)
         while True:
-            mesh, view, calls = pipe.recv()
-            pipe.send(drawn(drawer, mesh, view, calls))
+            pipe.send(drawn(drawer, *pipe.recv()))
     except EOFError:
         pass
     except Exception as error:  # whatever a package throws
         pipe.send(error)
 
 
-def drawn(drawer, mesh, view, calls):
-    """The picture's ids and distances, or, of so many calls, the median of their milliseconds. With a mesh, it is loaded anew."""
+def drawn(drawer, mesh, view, calls, again):
+    """The picture's ids and distances, or, of so many calls, the median of their milliseconds. With a mesh, it is loaded anew; again: into
+    the arrays of the last call."""
     times = []
     for _ in range(calls or 1):
         start = time.perf_counter()
         if mesh is not None:
             drawer.load(mesh)
-        ids, depth = drawer.draw(view)
+        ids, depth = drawer.draw(view, again)
         times.append(1e3 * (time.perf_counter() - start))
-    return median(times) if calls else (ids & 0xFFFFFF, drawer.distance(view, depth))
+    return median(times) if calls else ((ids - drawer.FIRST_ID) & 0xFFFFFF, drawer.distance(view, depth))
 
 
 class Drawer:
@@ -230,9 +241,9 @@ class Drawer:
         return said
 
     def picture(self, mesh, view):
-        self.pipe.send((mesh, view, 0))
+        self.pipe.send((mesh, view, 0, False))
         return self.answer()
 
-    def ms(self, view, calls, mesh=None):
-        self.pipe.send((mesh, view, calls))
+    def ms(self, view, calls, mesh=None, again=False):
+        self.pipe.send((mesh, view, calls, again))
         return self.answer()

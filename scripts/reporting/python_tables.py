@@ -4,17 +4,17 @@ from program import parsed
 from tables import by_order, outcome, short
 
 OURS, PEERS = "edgewise", {"vtk": "VTK", "moderngl": "ModernGL"}
-JOBS = {"draw": "a draw", "load": "load and draw"}
+JOBS = {"draw": "a draw", "redraw": "a draw into the last arrays", "load": "load and draw"}
 NOT_MEASURED = "No other Python package was measured here; `scripts/run --peers` does."
 
 
 def parse_python(data):
     """The data, and [(picture, {(drawer, threads, job): row})]."""
     def rows(picture):
-        found = {(name, int(threads), job): Row(f"{name}/{job}", name, False, picture["mesh"], {"threads": threads}, times[job], rounds=True)
-                 for name, of in picture["ms"].items() for threads, times in of.items() for job in JOBS}
+        found = {(name, int(threads), job): Row(f"{name}/{job}", name, False, picture["mesh"], {"threads": threads}, ms, rounds=True)
+                 for name, of in picture["ms"].items() for threads, times in of.items() for job, ms in times.items()}
         if any(not found[name, threads, job].times_ms or picture["peers"][peer]["differ"] < 0
-               for peer in PEERS for name in (OURS, peer) for threads in (1, 2) for job in JOBS):
+               for peer in PEERS for name in (OURS, peer) for threads in (1, 2) for job in ("draw", "load")):
             raise ValueError(picture["mesh"])
         return found
 
@@ -31,7 +31,7 @@ def read_python(folder):
 
 def faster(pictures, peer, job):
     """By how much ours are faster on two threads, and in how many pictures."""
-    return outcome(by_order([(rows[OURS, 2, job], rows[peer, 2, job]) for _, rows in pictures]))
+    return outcome(by_order([(rows[OURS, 2, job], rows[peer, 2, job]) for _, rows in pictures if (OURS, 2, job) in rows]))
 
 
 def pixels(pictures, peer):
@@ -46,5 +46,6 @@ def python_lines(found):
     if found is None:
         return NOT_MEASURED
     source, versions, pictures = found
-    return "\n".join(f"- Against {versions[peer]}, {'; '.join(f'{title} is {faster(pictures, peer, job)}' for job, title in JOBS.items())}. "
+    jobs = {job: title for job, title in JOBS.items() if any((OURS, 2, job) in rows for _, rows in pictures)}
+    return "\n".join(f"- Against {versions[peer]}, {'; '.join(f'{title} is {faster(pictures, peer, job)}' for job, title in jobs.items())}. "
                      f"{pixels(pictures, peer)}." for peer in PEERS) + f"\n\nOn 2 threads; {source}. A scene is a mesh at one size."
