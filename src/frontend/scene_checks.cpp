@@ -9,14 +9,14 @@
 
 namespace edgewise {
 
-std::size_t checked_count(std::size_t triangles, std::uint32_t first_id) {
+std::size_t checked_count(std::uint64_t triangles, std::uint32_t first_id) {
   if (triangles > kMaxTriangles)
     throw std::invalid_argument(std::to_string(triangles) + " triangles are more than " +
                                 std::to_string(kMaxTriangles));
   if (first_id > kMaxTriangles - triangles)
     throw std::invalid_argument("the ids of " + std::to_string(triangles) + " triangles, from " +
                                 std::to_string(first_id) + " on, reach " + std::to_string(kMaxTriangles));
-  return triangles;
+  return static_cast<std::size_t>(triangles);
 }
 
 void check_subpixel_bits(int bits) {

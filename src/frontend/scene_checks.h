@@ -10,7 +10,7 @@
 namespace edgewise {
 
 // Returns `triangles` unless a frame cannot have so many, with ids from `first_id` on.
-std::size_t checked_count(std::size_t triangles, std::uint32_t first_id = 0);
+std::size_t checked_count(std::uint64_t triangles, std::uint32_t first_id = 0);
 
 // FrontendOptions::subpixel_bits.
 void check_subpixel_bits(int bits);
