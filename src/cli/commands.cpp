@@ -4,10 +4,10 @@ namespace edgewise::tools {
 
 std::vector<Command> all_commands(viewer::ShowWindow show_window) {
   return {
-      {"list", "List all scenes, backends, SIMD targets and culling modes", add_list},
-      {"render", "Draw scenes into pictures and depth files", add_render},
+      kList,
+      kRender,
       {"hash", "Print one number per picture that is the same on every machine", add_hash},
-      {"verify", "Check that all backends write the same bits", add_verify},
+      kVerify,
       {"accuracy", "Count each method's errors", add_accuracy},
       {"stability", "Find where each method starts to fail", add_stability},
       {"diff", "Compare two pictures, or two depth files", add_diff},
@@ -18,7 +18,7 @@ std::vector<Command> all_commands(viewer::ShowWindow show_window) {
        [=](CLI::App& command) { return add_view(command, show_window); }},
       {"demo", "Show the tutorials that Edgewise grew from",
        [=](CLI::App& command) { return add_demo(command, show_window); }},
-      {"machine", "Describe this machine and build as JSON, as result files do", add_machine},
+      kMachine,
   };
 }
 

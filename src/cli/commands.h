@@ -38,4 +38,10 @@ Action add_view(CLI::App& command, viewer::ShowWindow show_window);
 Action add_demo(CLI::App& command, viewer::ShowWindow show_window);
 Action add_machine(CLI::App& command);
 
+// Of both programs, src/program.
+inline const Command kList{"list", "List all scenes, backends, SIMD targets and culling modes", add_list},
+    kRender{"render", "Draw scenes into pictures and depth files", add_render},
+    kVerify{"verify", "Check that all backends write the same bits", add_verify},
+    kMachine{"machine", "Describe this machine and build as JSON, as result files do", add_machine};
+
 }  // namespace edgewise::tools

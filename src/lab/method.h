@@ -11,6 +11,9 @@
 
 namespace edgewise::lab {
 
+// The subpixel bits with which ours stand beside other methods.
+inline constexpr int kShownBits[] = {8, 12, 15};
+
 struct MethodInfo {
   std::string_view name;     // the same in the command line, tests, results and charts
   std::string_view summary;  // one line

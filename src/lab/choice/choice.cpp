@@ -11,7 +11,6 @@ namespace edgewise::lab {
 namespace {
 
 constexpr std::string_view kOurs = "tiled";
-constexpr int kOurBits[] = {8, 12, 15};
 constexpr std::string_view kOthers[] = {"float_lt", "float_le", "float_top_left", "double_top_left",
                                         "fixed_4",  "llvmpipe", "swiftshader"};
 
@@ -58,7 +57,7 @@ std::vector<ChoiceMethod> choice_methods(std::span<const CoverageMethod* const> 
   for (const CoverageMethod* method : methods) {
     const std::string name(method->info.name);
     if (name == kOurs)
-      for (const int bits : kOurBits) list.push_back({name + "_" + std::to_string(bits), method, bits});
+      for (const int bits : kShownBits) list.push_back({name + "_" + std::to_string(bits), method, bits});
     else if (std::ranges::find(kOthers, name) != std::end(kOthers))
       list.push_back({name, method, 8});
   }
@@ -99,7 +98,7 @@ ChoiceJudge::ChoiceJudge(const Drawable& drawable, Size size, int threads)
 }
 
 bool ChoiceJudge::is_hole(int x, int y, std::uint32_t shown) const {
-  const std::uint32_t lost = exact(x, y);
+  const std::uint32_t lost = exact_.triangle_at(x, y);
   if (lost == kNoTriangle) return false;
   const auto touching = [&](std::uint32_t a, std::uint32_t b) {
     return a == b ||
@@ -107,7 +106,8 @@ bool ChoiceJudge::is_hole(int x, int y, std::uint32_t shown) const {
   };
   for (int py = std::max(0, y - 1); py < std::min(size_.height, y + 2); ++py)
     for (int px = std::max(0, x - 1); px < std::min(size_.width, x + 2); ++px)
-      if (!touching(exact(px, py), lost) || touching(exact(px, py), shown)) return false;
+      if (!touching(exact_.triangle_at(px, py), lost) || touching(exact_.triangle_at(px, py), shown))
+        return false;
   return true;
 }
 
@@ -117,7 +117,7 @@ ChoiceCounts ChoiceJudge::count_of(Shown&& shown) const {
   for (int y = 0; y < size_.height; ++y)
     for (int x = 0; x < size_.width; ++x) {
       const std::uint32_t triangle = shown(x, y);
-      if (triangle == exact(x, y)) continue;
+      if (triangle == exact_.triangle_at(x, y)) continue;
       ++counts.wrong;
       counts.holes += is_hole(x, y, triangle);
     }
@@ -133,7 +133,7 @@ std::optional<ChoiceCounts> ChoiceJudge::of_float_projection(int threads) const 
   const CoverageScene scene = coverage_scene(drawable_, options_of(drawable_, size_.width, size_.height));
   const auto seen = exact_visible_triangles(std::span(scene.floats), scene.window(), threads);
   return count_of([&](int x, int y) {
-    const std::uint32_t at = seen.triangle[static_cast<std::size_t>(y * size_.width + x)];
+    const std::uint32_t at = seen.triangle_at(x, y);
     return at == kNoTriangle ? at : scene.sources[at];
   });
 }

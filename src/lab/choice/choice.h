@@ -66,10 +66,6 @@ class ChoiceJudge {
   std::optional<ChoiceCounts> of_float_projection(int threads) const;
 
  private:
-  std::uint32_t exact(int x, int y) const {
-    return exact_.triangle[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
-                           static_cast<std::size_t>(x)];
-  }
   template <typename Shown>
   ChoiceCounts count_of(Shown&& shown) const;
   bool is_hole(int x, int y, std::uint32_t shown) const;

@@ -257,10 +257,10 @@ void PipelineNeeds::start(const StudiedFrame& frame) {
 }
 
 // The level of a frame.
-Level PipelineNeeds::judge(const Frame& frame, const Places& places, const Pipeline& pipeline,
-                           PipelineMemory& memory) const {
+Level PipelineNeeds::judge(const Frame& frame, std::span<const std::uint32_t> right, const Places& places,
+                           const Pipeline& pipeline, PipelineMemory& memory) const {
   frame.frame.draw(pipeline, memory);
-  const std::vector<std::uint32_t> drawn = memory.picture(), right = frame.right_picture();
+  const std::vector<std::uint32_t> drawn = memory.picture();
   const Size size = frame.frame.size();
   Level found;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -302,7 +302,7 @@ void PipelineNeeds::add(const StudiedFrame& studied, const CoverageScene& scene,
   const Places places(frame.right);
   std::vector<PipelineMemory> memory(static_cast<std::size_t>(threads));
   for_each_task(memory, trials.size(), [&](std::size_t i, PipelineMemory& own) {
-    const Level found = judge(frame, places, trials[i].first, own);
+    const Level found = judge(frame, right, places, trials[i].first, own);
     for (Level* const level : trials[i].second) {
       level->wrong_px += found.wrong_px, level->hidden_px += found.hidden_px;
       level->worst_px = std::max(level->worst_px, found.wrong_px);

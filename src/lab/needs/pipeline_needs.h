@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,8 +79,9 @@ class PipelineNeeds {
   class Search;
 
   void start(const StudiedFrame& frame);
-  Level judge(const Frame& frame, const Places& places, const Pipeline& pipeline,
-              PipelineMemory& memory) const;
+  // `right`: the frame's exact picture.
+  Level judge(const Frame& frame, std::span<const std::uint32_t> right, const Places& places,
+              const Pipeline& pipeline, PipelineMemory& memory) const;
   Pipeline strongest(const Ranges& ranges) const;
 
   std::uint64_t tolerance_px_;

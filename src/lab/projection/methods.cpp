@@ -186,8 +186,6 @@ ProjectionMethod exact(int bits) {
           exactly};
 }
 
-constexpr int kShownBits[] = {8, 12, 15};
-
 }  // namespace
 
 std::span<const ProjectionMethod> projection_methods() {

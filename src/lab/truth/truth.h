@@ -162,6 +162,11 @@ struct VisibleTriangles {
   Window window;
   std::vector<std::uint32_t> triangle;  // its index, or kNoTriangle
   std::vector<double> depth;            // of that triangle, within a relative error of 2^-40; else infinity
+
+  std::uint32_t triangle_at(int x, int y) const {
+    return triangle[static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(window.width) +
+                    static_cast<std::size_t>(x - window.x0)];
+  }
 };
 VisibleTriangles exact_visible_triangles(std::span<const ScreenTriangle> triangles, Window window,
                                          int threads);
