@@ -13,7 +13,7 @@ import noise
 from program import BadInput, read_json
 
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
-COUNTERS = ("triangles", "width", "height", "covered_px", "overdraw", "peak_bytes", "depth_ties", "wrong_px")
+COUNTERS = ("triangles", "width", "height", "covered_px", "overdraw", "depth_ties", "wrong_px")
 DIGITS = 5  # of the times in results/: more than any noise, so that no verdict changes
 LABORATORY = "lab"
 

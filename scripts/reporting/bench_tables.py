@@ -117,27 +117,6 @@ def engine_table(bench):
     return ["numbers", *(f"`{scene}`" for scene in scenes)], lines if scenes else []
 
 
-def memory_sentence(bench):
-    """The peak memory of front end, frame and backend, in the first frame."""
-    rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
-    if not rows:
-        return "Memory was not measured."
-
-    def pixels(row):
-        return row.counters["width"] * row.counters["height"]
-
-    def share(row):
-        return row.counters["peak_bytes"] / (100 * row.counters["triangles"] + 16 * pixels(row))
-
-    fewest = min(rows, key=lambda row: (row.counters["triangles"], -row.counters["peak_bytes"]))
-    most = max(rows, key=lambda row: (row.counters["triangles"], row.counters["peak_bytes"]))
-    a_pixel = fewest.counters["peak_bytes"] / pixels(fewest)
-    a_triangle = (most.counters["peak_bytes"] - a_pixel * pixels(most)) / most.counters["triangles"]
-    worst = max(rows, key=share)
-    return (f"The first frame takes {a_pixel:.1f} bytes per pixel plus {a_triangle:.0f} per triangle, at most {share(worst):.0%} of what "
-            f"`edgewise/backend.h` allows small triangles (`{worst.backend}` on `{worst.scene}`); large ones may take more.")
-
-
 def other_folders(folder):
     """Results folders beside this one that have benchmark rows."""
     return [other for other in sorted(folder.resolve().parent.iterdir())

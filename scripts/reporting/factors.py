@@ -6,8 +6,8 @@ from itertools import product
 from typing import NamedTuple
 
 from bench_rows import gained, order
-from noise import LEVEL, interval, median
-from tables import about, kernels, number
+from noise import interval, median
+from tables import about, kernels
 
 SCALAR = "scalar"
 HIZ, MASKS = "hiz", "hiz+masks"
@@ -122,63 +122,3 @@ def factor_table(bench):
 
     return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower", SCALAR],
             [line(title) for title in dict.fromkeys(title for title, _ in found)])
-
-
-def conditions(bench, shown):
-    """What these Gains are, and how many of their verdicts may be false."""
-    pairs = sum(len(gain.pairs) for gain in shown)
-    return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor, as implemented here; of "
-            f"{pairs} verdicts, at most {number(LEVEL * pairs, 2)} false ones are expected.")
-
-
-class Duel(NamedTuple):
-    """Bands against tiles in one scene, without HiZ and masks: cells and, with SIMD, the backend `scanline`."""
-    scene: str
-    triangle_px: float
-    overdraw: float
-    bands: dict  # {fill or "scanline": row}, the fastest first
-    tiles: dict
-    shipped: object  # the row of the backend `tiled`, with HiZ and masks; None for scalar code
-
-    @property
-    def fastest(self):
-        """The rows of both sides."""
-        return next(iter(self.bands.values())), next(iter(self.tiles.values()))
-
-    @property
-    def order(self):
-        """-1 if the fastest bands are faster than all tiles, 1 if the fastest tiles are than all bands, 0 if neither is settled."""
-        bands, tiles = self.fastest
-        if all(order(bands, row) < 0 for row in self.tiles.values()):
-            return -1
-        return int(all(order(tiles, row) < 0 for row in self.bands.values()))
-
-    @property
-    def only_shipped(self):
-        """Whether tiles win settled with HiZ and masks alone."""
-        return self.order != 1 and self.shipped is not None and all(order(self.shipped, row) < 0 for row in self.bands.values())
-
-    @property
-    def ratio(self):
-        """The speed-up of bands over tiles."""
-        return gained(*reversed(self.fastest))
-
-    @property
-    def winner(self):
-        """("bands" or "tiles", what draws them)"""
-        return ("bands", next(iter(self.bands))) if self.ratio > 1 else ("tiles", next(iter(self.tiles)))
-
-
-def duels(bench, simd):
-    """On the most threads, in the suite's order."""
-    found = cells(bench)
-    for scene in dict.fromkeys(cell.scene for cell in found):
-        bands, tiles = ({cell.fill: row for cell, row in chosen(found, scene=scene, simd=simd, traversal=traversal).items()}
-                        for traversal in TRAVERSALS)
-        if bands and tiles:
-            seen = next(iter(bands.values()))
-            if simd and (row := bench.frame("scanline", scene, most_threads(found))):
-                bands["scanline"] = row
-            yield Duel(scene, triangle_px(seen), seen.counters["overdraw"],
-                       *(dict(sorted(side.items(), key=lambda pair: pair[1].median_ms)) for side in (bands, tiles)),
-                       bench.frame("tiled", scene, most_threads(found)) if simd else None)

@@ -129,8 +129,7 @@ def grid(sweeps, folder, caption):
             draw_rows(axes, of, rows, cell_in, y)
             y += HEAD_IN + ROW_IN * len(rows)
         y += 0.14
-    save(figure, folder, "stability-grid", caption)
-    return "stability-grid"
+    return save(figure, folder, "stability-grid", caption)
 
 
 def draw_rows(axes, sweeps, rows, cell_in, y):
