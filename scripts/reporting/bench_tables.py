@@ -3,7 +3,7 @@ import os
 
 from bench_rows import describe_machine, gained, order, read_bench
 from program import read_json
-from tables import VECTORS, about, by_order, gain, milliseconds, number, outcome, with_width
+from tables import VECTORS, about, by_order, milliseconds, number, outcome, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)

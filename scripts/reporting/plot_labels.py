@@ -51,7 +51,7 @@ def place(points, sizes, bounds, line_points):
 
     def cost(i, distance, box):
         others = [other for j, other in placed.items() if j != i]
-        leaders = [p for j, other in placed.items() if j != i for p in along(points[j], end_of(points[j], other))]
+        leaders = [p for j in placed if j != i for p in along(points[j], end_of(points[j], placed[j]))]
         own = along(points[i], end_of(points[i], box))
         return (distance + 4000 * (1 - area_shared(bounds, box) / (box.width * box.height))
                 + 300 * box.padded(5).count_contains(points)
@@ -64,7 +64,13 @@ def place(points, sizes, bounds, line_points):
     crowded_first = sorted(range(len(points)), key=lambda i: (-sum(math.dist(points[i], p) < 60 for p in points), points[i]))
     for _ in range(4):  # later rounds see all other labels
         for i in crowded_first:
-            placed[i] = min(candidates(points[i], *sizes[i]), key=lambda one: cost(i, *one))[1]
+            least = math.inf
+            for distance, box in candidates(points[i], *sizes[i]):
+                if distance >= least:  # the nearest come first
+                    break
+                if (found := cost(i, distance, box)) < least:
+                    least, best = found, box
+            placed[i] = best
     return [placed[i] for i in range(len(points))]
 
 
