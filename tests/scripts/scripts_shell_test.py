@@ -132,27 +132,17 @@ class ShellTest(FolderTest):
         self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
         self.assert_usage_error(self.run_script("compare", "a"), "no such file, and no revision")
 
-    def test_no_install_holds_wherever_it_stands(self):
-        self.tool("dpkg-query", DPKG_QUERY)
-        for arguments in (("-R", "x", "--no-install"), ("--no-install", "-R", "x")):
-            result = self.run_script("test", *arguments)
+    def test_missing_packages_are_named_before_anything_runs(self):
+        for missing, run_it in (("ninja-build", lambda: self.run_script("test", "-R", "x", "--no-install")),
+                                ("ninja-build", lambda: self.run_script("test", "--no-install", "-R", "x")),
+                                ("chromium-driver", lambda: self.run_script("test", "--full", "--no-install")),
+                                ("libegl-dev", lambda: self.library("set_up list; set_up list peers"))):
+            self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", missing))
+            result = run_it()
             self.assertEqual(result.returncode, 2)
-            self.assertIn("Missing packages: ninja-build\n", result.stderr)
+            self.assertIn(f"Missing packages: {missing}\n", result.stderr)
             self.assertFalse(self.calls.exists(), "something ran")
-
-    def test_missing_packages_of_a_further_list_are_named(self):
-        self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", "libegl-dev"))
         self.assertEqual(self.library("set_up list").returncode, 0)
-        result = self.library("set_up list peers")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("Missing packages: libegl-dev\n", result.stderr)
-
-    def test_the_full_test_first_looks_for_all_packages(self):
-        self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", "chromium-driver"))
-        result = self.run_script("test", "--full", "--no-install")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("Missing packages: chromium-driver\n", result.stderr)
-        self.assertFalse(self.calls.exists(), "something ran")
 
     def test_a_page_that_would_be_another_fails_its_check(self):
         self.file("root/src/web/page.html", "<@PROGRAM@>\n")
@@ -329,9 +319,8 @@ folder.mkdir()
 
     def test_a_run_without_results_counts_as_failed(self):
         result = self.run_script("test", "-R", "A", CTEST_STATUS="8")
-        self.assertEqual(result.returncode, 8)
-        self.assertEqual(result.stdout.splitlines()[-2:], ["Failed: the run ended without results; see above (tests)",
-                                                           "0 passed, 1 failed, 0 skipped"])
+        self.assertEqual((result.returncode, result.stdout.splitlines()[-2:]), (8, ["Failed: the run ended without results; see above (tests)",
+                                                                                    "0 passed, 1 failed, 0 skipped"]))
         result, lines = self.run_tests("", "-R", "A", CTEST_STATUS="3")
         self.assertEqual((result.returncode, lines[-1]), (3, "1 passed, 1 failed, 2 skipped"))
 
