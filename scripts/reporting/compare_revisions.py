@@ -211,8 +211,8 @@ class Row:
 def judge(rows):
     """Sets the verdicts. Rows of rounds are judged as a family. Two results have too many rows with too few repetitions for that."""
     claims = [row.claim for row in rows]
-    judge_all = noise.family if all(row.rounds for row in rows) else noise.alone
-    for row, order in zip(rows, judge_all(claims)):
+    orders = noise.family(claims) if all(row.rounds for row in rows) else [noise.settled(*claim) for claim in claims]
+    for row, order in zip(rows, orders):
         row.verdict = row.told(order)
 
 

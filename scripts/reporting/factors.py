@@ -41,43 +41,36 @@ def chosen(found, **levels):
     return {cell: row for cell, row in found.items() if all(getattr(cell, field) == level for field, level in levels.items())}
 
 
-def everywhere(_):
-    return True
-
-
 def triangle_px(row):
     """Covered pixels per triangle, culled ones included."""
     return row.counters["covered_px"] / row.counters["triangles"]
 
 
-def factors(simd, threads):
-    """(factor, where, field of a cell, level before, level after, levels of other factors: where, whether a row's scene is meant)"""
+def factors(threads):
+    """(factor, where, field of a cell, level before, level after, levels of other factors, whether a row's scene is meant)"""
+    def everywhere(_):
+        return True
+
     for fill in FILLS:
         yield "tiles over bands", f"with {fill}", "traversal", *TRAVERSALS, {"fill": fill}, everywhere
     for traversal in TRAVERSALS:
         yield "edges over spans", f"in {traversal}", "fill", *FILLS, {"traversal": traversal}, everywhere
-    if simd:
-        for traversal, fill in product(TRAVERSALS, FILLS):
-            yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}, everywhere
-        for where, deep in ((f"overdraw ≥{DEEP}", True), (ELSEWHERE, False)):
-            yield "HiZ", where, "extra", "", HIZ, {}, lambda row, deep=deep: (row.counters["overdraw"] >= DEEP) == deep
-        for where, small in ((f"triangles ≤{SMALL_PX} px", True), (ELSEWHERE, False)):
-            yield "masks, with HiZ", where, "extra", HIZ, MASKS, {}, lambda row, small=small: (triangle_px(row) <= SMALL_PX) == small
+    for traversal, fill in product(TRAVERSALS, FILLS):
+        yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}, everywhere
+    for where, deep in ((f"overdraw ≥{DEEP}", True), (ELSEWHERE, False)):
+        yield "HiZ", where, "extra", "", HIZ, {}, lambda row, deep=deep: (row.counters["overdraw"] >= DEEP) == deep
+    for where, small in ((f"triangles ≤{SMALL_PX} px", True), (ELSEWHERE, False)):
+        yield "masks, with HiZ", where, "extra", HIZ, MASKS, {}, lambda row, small=small: (triangle_px(row) <= SMALL_PX) == small
     yield f"{threads} threads over 1", "no HiZ or masks", "threads", 1, threads, {}, everywhere
 
 
 class Gain(NamedTuple):
-    """The speed-ups by a factor in cells with or without SIMD: each pair is of two cells of a scene that differ in nothing else."""
+    """The speed-ups by a factor in cells with SIMD: each pair is of two cells of a scene that differ in nothing else."""
     factor: str
     where: str
     field: str  # of a cell
-    simd: bool
     pairs: list  # (speed-up, scene), the smallest first
     orders: list  # order() of each pair
-
-    @property
-    def title(self):
-        return f"{self.factor}, {self.where}"
 
     @property
     def by_scene(self):
@@ -101,24 +94,17 @@ class Gain(NamedTuple):
 
 
 def gains(bench):
-    """A Gain of each factor on the most threads, in all scenes: with SIMD, then in scalar code."""
+    """A Gain of each factor on the most threads, in all scenes."""
     found = cells(bench)
-    for simd in (True, False):
-        for factor, where, field, before, after, levels, meant in factors(simd, most_threads(found)):
-            pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": simd, **levels, field: after}).items()
-                     if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
-            if pairs:
-                yield Gain(factor, where, field, simd, sorted((gained(other, row), scene) for scene, other, row in pairs),
-                           [order(row, other) for _, other, row in pairs])
+    for factor, where, field, before, after, levels, meant in factors(most_threads(found)):
+        pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": True, **levels, field: after}).items()
+                 if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
+        if pairs:
+            yield Gain(factor, where, field, sorted((gained(other, row), scene) for scene, other, row in pairs),
+                       [order(row, other) for _, other, row in pairs])
 
 
 def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
-    found = {(gain.title, gain.simd): gain for gain in gains(bench)}
-
-    def line(title):
-        simd, scalar = (found.get((title, simd)) for simd in (True, False))
-        return [title, simd.text if simd else "–", simd.counts if simd else "–", scalar.text if scalar else "–"]
-
-    return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower", SCALAR],
-            [line(title) for title in dict.fromkeys(title for title, _ in found)])
+    return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower"],
+            [[f"{gain.factor}, {gain.where}", gain.text, gain.counts] for gain in gains(bench)])
