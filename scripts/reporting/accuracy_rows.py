@@ -29,7 +29,7 @@ FAMILIES = {family.name: family for family in (
 )}
 
 
-SCALAR = "scalar"  # the name of the form without SIMD
+SCALAR, SIMD = "scalar", "simd"
 MESHES, OUR_GRID = "meshes", "vertices on our grid"  # kinds of scenes
 UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
 
@@ -45,27 +45,14 @@ class Method:
         return self.source.startswith(("src/", "edgewise/", "frontend/"))
 
 
-class Seen(NamedTuple):
-    """Pixels of a picture that show the wrong triangle, and those where something shows through."""
-    wrong: int
-    through: int
-
-
 @dataclass(frozen=True)
 class Measured:
     """One method on one scene."""
     method: Method
     rate: float  # errors per 10⁶
-    forms: dict = field(default_factory=dict)  # rows on one thread by SIMD target; empty where the scene is not timed
-    seen: Seen | None = None  # coverage only
-
-    @property
-    def scalar(self):
-        return self.forms.get(SCALAR)
-
-    @property
-    def simd(self):
-        return next((row for target, row in self.forms.items() if target != SCALAR), None)
+    forms: dict  # the rows on one thread of the forms SCALAR and SIMD; empty where the scene is not timed
+    wrong: int  # coverage: pixels of a picture that show the wrong triangle
+    through: int  # coverage: those where something shows through
 
 
 @dataclass(frozen=True)
@@ -119,17 +106,17 @@ class Sweep:
 
 def parse_measured(entry, family, method, forms):
     score = entry[FAMILIES[family].truth]
-    seen = Seen(int(score["wrong_pixels"]), int(score["wrong_surface_pixels"])) if family == "coverage" else None
-    return Measured(method, float(score["errors_per_million"]), forms, seen)
+    wrong, through = (int(score[key]) if family == "coverage" else 0 for key in ("wrong_pixels", "wrong_surface_pixels"))
+    return Measured(method, float(score["errors_per_million"]), forms, wrong, through)
 
 
 def times_of(bench):
-    """{(family, scene, method): {SIMD target: row}} on one thread"""
+    """{(family, scene, method): {SCALAR or SIMD: row}} on one thread"""
     found = {}
     for row in bench.sweep("method") if bench else ():
         if row.backend == LABORATORY and row.threads == 1:
             keys = row.keys
-            found.setdefault((keys["family"], row.scene, keys["method"]), {})[keys["simd"]] = row
+            found.setdefault((keys["family"], row.scene, keys["method"]), {})[SCALAR if keys["simd"] == SCALAR else SIMD] = row
     return found
 
 
@@ -141,8 +128,7 @@ def parse_accuracy(data, bench=None):
         family = FAMILIES[scene["family"]]
         triangles = int(scene["triangles"])
         measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]],
-                                   {target: row for target, row in
-                                    times.get((family.name, scene["name"], entry["name"]), {}).items()
+                                   {form: row for form, row in times.get((family.name, scene["name"], entry["name"]), {}).items()
                                     if row.counters["triangles"] == triangles})  # else timed on a scene of another size
                     for entry in scene["methods"] if (family.name, entry["name"]) in methods]
         scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]), tuple(measured), float(scene.get("largest_side_px", 0.0)),

@@ -1,5 +1,5 @@
 """The tables of facts: what a viewer sees of methods, pixels that are not portable, and what scenes need."""
-from accuracy_rows import MESHES, OUR_GRID
+from accuracy_rows import MESHES, OUR_GRID, SCALAR, SIMD
 from bench_rows import facts_of
 from program import parsed
 from tables import gain, milliseconds, number
@@ -13,15 +13,15 @@ def methods_table(accuracy):
     scenes, flicker, lines = accuracy.of("coverage"), accuracy.flicker.get(TIMED_SCENE, {}), []
     timed = next((scene for scene in scenes if scene.name == TIMED_SCENE), None)
     for method in accuracy.methods["coverage"]:
-        seen = [(scene.kind, scene.of(method.name).seen) for scene in scenes if scene.of(method.name) and scene.in_range_of(method)]
+        seen = [(scene.kind, scene.of(method.name)) for scene in scenes if scene.of(method.name) and scene.in_range_of(method)]
 
         def total(of, what):
-            return f"{sum(getattr(counts, what) for kind, counts in seen if kind == of):,}"
+            return f"{sum(getattr(measured, what) for kind, measured in seen if kind == of):,}"
 
         times = timed and timed.of(method.name)
         lines.append([f"`{method.name}`", total(MESHES, "wrong"), total(MESHES, "through"), total(OUR_GRID, "wrong"),
                       number(flicker[method.name]) if method.name in flicker else "–",
-                      " / ".join(map(milliseconds, (times.scalar, times.simd))) if times else "–"])
+                      " / ".join(milliseconds(times.forms.get(form)) for form in (SCALAR, SIMD)) if times else "–"])
     return ["method", "wrong pixels of meshes", "showing through", "wrong pixels on our grid", "flicker", "ms, scalar / SIMD"], lines
 
 
