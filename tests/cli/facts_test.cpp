@@ -42,7 +42,8 @@ json entry(const json& list, const json& like, std::initializer_list<const char*
 // scripts/publish leaves out what no report reads. All that it keeps must be there, in its place.
 void expect_kept(const json& made, const json& published) {
   const json all = made.flatten(), kept = published.flatten();
-  for (const auto& [place, value] : kept.items()) ASSERT_EQ(all.value(place, json()).dump(), value.dump()) << place;
+  for (const auto& [place, value] : kept.items())
+    ASSERT_EQ(all.value(place, json()).dump(), value.dump()) << place;
 }
 
 TEST(Facts, OfSmallScenesAreThoseOfTheResults) {
@@ -52,7 +53,8 @@ TEST(Facts, OfSmallScenesAreThoseOfTheResults) {
   const json all = json::parse(facts(arguments)), expected = committed("accuracy");
   expect_kept(all.at("methods"), expected.at("methods"));
   for (const auto& [key, value] : all.items()) EXPECT_TRUE(expected.contains(key)) << key;
-  for (const json& scene : all.at("scenes")) expect_kept(scene, entry(expected.at("scenes"), scene, {"family", "name"}));
+  for (const json& scene : all.at("scenes"))
+    expect_kept(scene, entry(expected.at("scenes"), scene, {"family", "name"}));
 }
 
 TEST(Facts, OfSweepsAreThoseOfTheResults) {
