@@ -1,5 +1,6 @@
 """Compares rows of two results; or builds the benchmark of two revisions, times both by turns, and judges each row by its paired
 rounds."""
+import math
 import os
 import random
 import re
@@ -11,7 +12,6 @@ import tempfile
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import count
 from pathlib import Path
 
 import noise
@@ -173,7 +173,7 @@ VERDICTS = SLOWER, FASTER, FEW, SAME = "slower", "faster", "too few repetitions"
 @dataclass
 class Row:
     sides: list  # the rows before and after, with their counters; of rounds the last
-    times: tuple  # of each side, the times of its repetitions, round by round
+    ms: tuple  # of each side, the time of each round
     rounds: bool = True  # else the two were timed at different times, with one repetition a round
     least: float = 0.0  # smaller changes don't count
     verdict: str = SAME
@@ -181,11 +181,6 @@ class Row:
     @property
     def error(self):
         return self.sides[0].error or self.sides[1].error
-
-    @property
-    def ms(self):
-        """Of each side, the medians of the rounds."""
-        return [[noise.median(times) for times in side] for side in self.times]
 
     @property
     def ratio(self):
@@ -204,7 +199,7 @@ class Row:
     def told(self, order):
         if abs(self.ratio - 1) < self.least:
             return SAME
-        few = not self.rounds and not noise.enough(*map(len, self.times))
+        few = not self.rounds and not noise.enough(*map(len, self.ms))
         return {-1: FASTER, 0: FEW if few else SAME, 1: SLOWER}[order]
 
 
@@ -223,30 +218,29 @@ def show(text):
 
 
 def time_rounds(sides, pattern, fewest, rounds, limit_s):
-    """{name: Row} after `rounds`; where it is None, after as many as fit into `limit_s`: the first ROUNDS, and these again."""
-    rows, start, programs = {}, time.monotonic(), rounds or ROUNDS
-    for done in count():
+    """{name: Row} after `rounds`; where it is None, after as many of ROUNDS as fit into `limit_s`."""
+    rows, start = {}, time.monotonic()
+    for i in range(rounds or ROUNDS):
         spent = time.monotonic() - start
-        fit = done * limit_s / spent if done else 0
-        if rounds is None and done == 1 and fit < fewest:
-            raise BadInput(f"one round takes {spent:.0f} s, and {fewest} are the fewest that settle so many rows: "
-                           f"--minutes {fewest * spent / 60 + 1:.0f} or fewer rows are needed")
-        if done == rounds or rounds is None and done and done + 1 > fit:
-            show("")
-            return rows
-        show(f"round {done + 1}{f' of {rounds}' if rounds else ''}, {spent:.0f} s{'' if rounds else f' of {limit_s:.0f}'}")
+        fit = i * limit_s / spent if i and rounds is None else math.inf
+        if fit < fewest:
+            raise BadInput(f"one round takes {spent / i:.0f} s, and {fewest} are the fewest that settle so many rows: "
+                           f"--minutes {fewest * spent / i / 60 + 1:.0f} or fewer rows are needed")
+        if i + 1 > fit:
+            break
+        show(f"round {i + 1} of {rounds or ROUNDS}, {spent:.0f} s{'' if rounds else f' of {limit_s:.0f}'}")
         # Before, after, after, before: a steady drift of the machine favours neither side.
-        results = {side: timed(sides[side], done % programs, pattern) for side in ((0, 1) if done % 2 == 0 else (1, 0))}
+        results = {side: timed(sides[side], i, pattern) for side in ((0, 1) if i % 2 == 0 else (1, 0))}
         for name in (name for name in results[0].rows if name in results[1].rows):
             now = [results[side].rows[name] for side in (0, 1)]
             row = rows.setdefault(name, Row(now, ([], [])))
             if bool(row.error) != any(side.error for side in now):
                 raise BadInput(f"{name}: some rounds failed, others did not: the programs draw different pixels from time to time")
             row.sides = now
-            for times, new in zip(row.times, () if row.error else now):
-                if done < programs:
-                    times.append([])
-                times[done % programs] += new.times_ms
+            for ms, new in zip(row.ms, () if row.error else now):
+                ms.append(new.median_ms)
+    show("")
+    return rows
 
 
 def line(name, row, width):
@@ -302,7 +296,7 @@ def print_compared(rows, listed, verdicts=VERDICTS):
     different = [name for name, row in rows.items() if not row.error and other_work(*row.sides)]
     judged = {name: row for name, row in rows.items() if not row.error and name not in different}
     judge(judged.values())
-    done = max((len(row.times[0]) for row in rows.values() if row.rounds), default=0)
+    done = max((len(row.ms[0]) for row in rows.values() if row.rounds), default=0)
     print(f"\n{done} rounds, before and after by turns; " if done else "", end="")
     print_rows(judged, "rounds" if done else "repetitions", verdicts)
     if judged and done:
