@@ -62,11 +62,6 @@ def gained(before, after):
     return noise.median_ratio(*compared(after, before))
 
 
-def gained_interval(before, after):
-    """The interval of gained()."""
-    return noise.ratio_interval(*compared(after, before))
-
-
 def parse_name(name):
     who, *rest = name.split("/")
     pairs = [part.partition(":") for part in rest]

@@ -284,14 +284,13 @@ folder.mkdir()
         self.assertNotIn("--main", (results / "mine/charts/choice.svg").read_text())
         self.assertLessEqual({"accuracy", "demos", "needs", "portable", "stability"}, {path.stem for path in (results / "facts").glob("*.json")})
 
-    def run_tests(self, cases, *arguments, **environment):
-        result = self.run_script("test", *arguments, CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % cases)),
-                                 **environment)
+    def run_tests(self, **environment):
+        result = self.run_script("test", CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % "")), **environment)
         return result, result.stdout.splitlines()
 
     def test_the_verdict_counts_all_runs_and_tells_why_tests_are_skipped(self):
         shards = len(os.sched_getaffinity(0))
-        result, lines = self.run_tests("")
+        result, lines = self.run_tests()
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         # Of three runs of ctest and, of two programs, one shard per core.
         self.assertEqual(lines[-1], f"{3 + 2 * shards} passed, 0 failed, {6 + 2 * shards} skipped")
@@ -301,28 +300,22 @@ folder.mkdir()
 
     def test_a_wrong_hash_on_another_processor_fails(self):
         self.file("root/build/edgewise_hashes", '#!/bin/bash\nshift\necho "0 0: here, $*"\n').chmod(0o755)
-        result, lines = self.run_tests("", QEMU_STATUS="1")
+        result, lines = self.run_tests(QEMU_STATUS="1")
         self.assertEqual(result.returncode, 1)
         self.assertIn("\n< 0 0: here, --dump cube/3\n---\n> 0 0: there\n", result.stdout)
         self.assertEqual(lines[-2], "Failed: the run ended without results; see above (aarch64)")
 
-    def test_selected_tests_run_once(self):
-        result, lines = self.run_tests("", "-R", "A", "-j4")
-        self.assertEqual((result.returncode, lines[-1]), (0, "1 passed, 0 failed, 2 skipped"))
-        self.assertIn(" -R A -j4", self.calls.read_text())
-        self.assertIn("Testing -R A", result.stdout)
-
-    def test_failures_are_named_and_keep_the_exit_status(self):
-        result, lines = self.run_tests(FAILED_CASES, "-R", "A", CTEST_STATUS="8")
-        self.assertEqual(result.returncode, 8)
-        self.assertEqual(lines[-3:], ["Failed: B.Wrong (tests)", "Failed: gone (tests)", "1 passed, 2 failed, 2 skipped"])
-
-    def test_a_run_without_results_counts_as_failed(self):
-        result = self.run_script("test", "-R", "A", CTEST_STATUS="8")
-        self.assertEqual((result.returncode, result.stdout.splitlines()[-2:]), (8, ["Failed: the run ended without results; see above (tests)",
-                                                                                    "0 passed, 1 failed, 0 skipped"]))
-        result, lines = self.run_tests("", "-R", "A", CTEST_STATUS="3")
-        self.assertEqual((result.returncode, lines[-1]), (3, "1 passed, 1 failed, 2 skipped"))
+    def test_selected_tests_run_once_and_failures_are_named(self):
+        nothing = "Failed: the run ended without results; see above (tests)"
+        for cases, status, last in (("", 0, ["1 passed, 0 failed, 2 skipped"]), ("", 3, ["1 passed, 1 failed, 2 skipped"]),
+                                    (FAILED_CASES, 8, ["Failed: B.Wrong (tests)", "Failed: gone (tests)", "1 passed, 2 failed, 2 skipped"]),
+                                    (None, 8, [nothing, "0 passed, 1 failed, 0 skipped"])):
+            result = self.run_script("test", "-R", "A", "-j4", CTEST_STATUS=str(status),
+                                     CTEST_XML="" if cases is None else str(self.file("ctest.xml", CTEST_CASES % cases)))
+            lines = result.stdout.splitlines()
+            self.assertEqual((result.returncode, lines[-len(last):]), (status, last))
+            self.assertIn("Testing -R A", result.stdout)
+        self.assertEqual(self.calls.read_text().count(" -R A -j4"), 4)
 
 
 if __name__ == "__main__":
