@@ -144,8 +144,8 @@ def read_rows(entries):
     rows = {}
     for name, entry in entries.items():
         rows[name] = row = parse_name(name)
-        row.times_ms, row.error = [float(ms) for ms in entry.pop("ms")], entry.pop("error", "")
-        row.counters = {key: float(value) for key, value in entry.items()}
+        row.times_ms, row.error = [float(ms) for ms in entry["ms"]], entry.get("error", "")
+        row.counters = {key: float(entry[key]) for key in COUNTERS if key in entry}
     return rows
 
 
