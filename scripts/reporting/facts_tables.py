@@ -33,11 +33,7 @@ def parse_portable(data):
     """{subpixel bits: {scene: entry}}"""
     found = {}
     for entry in data:
-        if not 0 <= entry["unstable"] <= entry["pixels"]:
-            raise ValueError(f"scene {entry['scene']}")
         found.setdefault(int(entry["subpixel_bits"]), {})[entry["scene"]] = entry
-    if len({frozenset(scenes) for scenes in found.values()}) > 1:
-        raise ValueError("not the same scenes for all subpixel bits")
     return found
 
 
@@ -67,8 +63,6 @@ def parse_needs(data):
     """{scene: (entry, {depth format: its entry})}"""
     found = {}
     for entry in data:
-        if not entry["frames"] > 0 or not (entry["minima"] or entry["closest"]):
-            raise ValueError(f"scene {entry['scene']}")
         [depth] = (curve["levels"] for curve in entry["curves"] if curve["stage"] == DEPTH)
         found[entry["scene"]] = entry, {level["level"]: level for level in depth}
     return found
