@@ -78,8 +78,7 @@ class Bench:
 
     @property
     def backends(self):
-        named = self.context.get("backends", "").split()
-        return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend not in ("", "cell", LABORATORY)))
+        return self.context.get("backends", "").split()
 
     @property
     def peers(self):

@@ -11,26 +11,18 @@ OURS = "tiled"  # the backend that represents ours
 GPU = "gpu"  # the peer that has no number of threads
 
 
-def scene_facts(bench, scene):
-    """Triangles submitted, and overdraw."""
-    front = bench.find(f"frontend/{scene}/threads:1")
-    frame = next((row for backend in bench.backends if (row := bench.frame(backend, scene, 1))), None)
-    triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
-    overdraw = f"{frame.counters['overdraw']:.2f}" if frame else "–"
-    return triangles, overdraw
-
-
 def speed_table(bench):
     """Header and lines: whole frames of ours and of peers, one line per scene; bold: the settled fastest of ours."""
     lines = []
     for scene in bench.scenes:
         ours = {backend: row for backend in bench.backends if (row := bench.frame(backend, scene, max(THREADS)))}
+        front, any_frame = bench.find(f"frontend/{scene}/threads:1"), next(iter(ours.values()), None)
 
         def cell(row):
             best = all(order(row, other) < 0 for other in ours.values() if other is not row)
             return f"**{milliseconds(row)}**" if best and len(ours) > 1 else milliseconds(row)
 
-        lines.append([scene, *scene_facts(bench, scene),
+        lines.append([scene, f"{front.counters['triangles']:,.0f}" if front else "–", f"{any_frame.counters['overdraw']:.2f}" if any_frame else "–",
                       *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
                       *(milliseconds(peer_frame(bench, peer, scene, max(THREADS))) for peer in bench.peers)])
     return ["scene", "triangles", "overdraw", *bench.backends, *bench.peers], lines
