@@ -58,7 +58,8 @@ class TablesTest(unittest.TestCase):
 def compared_packages(**peers):
     """One picture; of each peer: its speed-down on both numbers of threads, and how many ids differ."""
     def times(ms):
-        return {str(threads): {"draw": [ms / threads * noise for noise in NOISE * 2], "load": [9 * ms * noise for noise in NOISE * 2]} for threads in (1, 2)}
+        return {str(threads): {job: [factor * ms * noise for noise in NOISE * 2] for job, factor in (("draw", 1 / threads), ("redraw", 0.5), ("load", 9))}
+                for threads in (1, 2)}
 
     return {"commit": "abc", "versions": {"edgewise": "Edgewise", **{peer: f"{peer} 1" for peer in peers}}, "pictures": [
         {"mesh": "hill", "triangles": 2000, "size": [640, 480], "covered": 5000,
@@ -73,10 +74,15 @@ class PythonTest(FolderTest):
 
     def test_each_peer_has_a_line(self):
         lines = python_lines(self.read(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 1234)))).splitlines()
-        self.assertEqual(lines[0], "- Against vtk 1, a draw is 4.0× faster in 1 of 1 scene; load and draw is 4.0× faster in 1 of 1 scene. Of 5k pixels 0 show "
-                                   "another triangle, 2 of them a hole.")
-        self.assertTrue(lines[1].startswith("- Against moderngl 1, a draw is 2.0× slower in 1 of 1 scene; "))
+        self.assertEqual(lines[0], "- Against vtk 1, a draw into new arrays is 4.0× faster in 1 of 1 scene; "
+                                   "a draw into reused arrays is 4.0× faster in 1 of 1 scene; "
+                                   "load and draw is 4.0× faster in 1 of 1 scene. Of 5k pixels 0 show another triangle, 2 of them a hole.")
+        self.assertTrue(lines[1].startswith("- Against moderngl 1, a draw into new arrays is 2.0× slower in 1 of 1 scene; "))
         self.assertEqual(lines[-1], "On 2 threads; `mine`, commit abc. A scene is a mesh at one size.")
+
+    def test_an_older_file_reuses_no_arrays(self):
+        data = json.dumps(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 1234))).replace("redraw", "unknown")
+        self.assertNotIn("reused", python_lines(self.read(json.loads(data))))
 
     def test_nothing_is_said_of_nothing_and_what_is_no_result_is_refused(self):
         self.assertEqual(python_lines(read_python(self.folder / "results/mine")), "No other Python package was measured here; `scripts/run --full --peers` does.")
