@@ -13,6 +13,7 @@ import time
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import geometric_mean
 
 import noise
 from bench_rows import read_bench
@@ -223,9 +224,9 @@ def time_rounds(sides, pattern, fewest, rounds, limit_s):
     for i in range(rounds or ROUNDS):
         spent = time.monotonic() - start
         fit = i * limit_s / spent if i and rounds is None else math.inf
-        if fit < fewest:
-            raise BadInput(f"one round takes {spent / i:.0f} s, and {fewest} are the fewest that settle so many rows: "
-                           f"--minutes {fewest * spent / i / 60 + 1:.0f} or fewer rows are needed")
+        if i == 1 and fit < fewest:
+            raise BadInput(f"one round takes {spent:.0f} s, and {fewest} are the fewest that settle so many rows: "
+                           f"--minutes {fewest * spent / 60 + 1:.0f} or fewer rows are needed")
         if i + 1 > fit:
             break
         show(f"round {i + 1} of {rounds or ROUNDS}, {spent:.0f} s{'' if rounds else f' of {limit_s:.0f}'}")
@@ -290,6 +291,16 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
     return 0
 
 
+def means(ratios):
+    """A line of the geometric means of {row: ratio}: of the rows whose names begin alike, up to the first "/", whole frames
+    included, and of all."""
+    groups = {}
+    for name, ratio in ratios.items():
+        groups.setdefault(name.split("/")[0].removesuffix("+frontend"), []).append(ratio)
+    told = [f"{name} {geometric_mean(of):.3f}" for name, of in (*sorted(groups.items()), ("all", ratios.values()))]
+    return "Geometric means of the ratios: " + ", ".join(told)
+
+
 def print_compared(rows, listed, verdicts=VERDICTS):
     """Prints rows and `listed` names of both sides. Returns the number of rounds and the judged rows."""
     failed = [f"{name}: {row.error}" for name, row in rows.items() if row.error]
@@ -305,9 +316,12 @@ def print_compared(rows, listed, verdicts=VERDICTS):
         print(f"\nIf nothing changed, at most {number(noise.LEVEL * len(judged), 2)} rows in {len(judged)} would be told as changed.")
     before, after = listed
     for title, names_of in (("Not compared: other triangles, pixels or size", different), ("Not compared: error", failed),
-                            ("Only before", [name for name in before if name not in after]), ("Only after", [name for name in after if name not in before])):
+                            ("Only before", [name for name in before if name not in after]),
+                            ("Only after", [name for name in after if name not in before])):
         if names_of:
             print(f"\n{title}", *(f"  {name}" for name in names_of), sep="\n")
+    if judged:
+        print("\n" + means({name: row.ratio for name, row in judged.items()}))
     return done, judged
 
 
