@@ -540,6 +540,18 @@ TEST(Needs, CountsFoldsAsCracks) {
   EXPECT_TRUE(answer_of(question, "8 bits").enough());
 }
 
+// The diagonal of a square passes through seven samples between its ends. Strict tests draw none of them.
+TEST(Needs, CountsGapsOfSharedEdgesAsCracks) {
+  const glm::vec3 a{1.5, 1.5, 0.5}, b{9.5, 1.5, 0.5}, c{9.5, 9.5, 0.5}, d{1.5, 9.5, 0.5};
+  const Needs needs = studied(stream_of({triangle(a, b, c), triangle(a, c, d)}));
+  const Question question = named(needs.edges(), "float edges without a crack");
+  const Answer strict = named(question.answers, "float_lt");
+  ASSERT_FALSE(strict.enough());
+  EXPECT_EQ(strict.wrong_px, 7u);
+  EXPECT_EQ(strict.witness->drawn, std::vector<std::uint32_t>{});
+  EXPECT_TRUE(named(question.answers, "float_top_left").enough());
+}
+
 // A frame that needs more than the ones before it decides.
 TEST(Needs, TheHardestFrameDecides) {
   Needs needs({.displacement = 0.0});
