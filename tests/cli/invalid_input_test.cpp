@@ -77,27 +77,21 @@ void write_inputs(const TempDir& folder) {
   };
   const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   folder.write("good.obj", kCorners + "f 1 2 3\n");
-  folder.write("empty.obj", "");
   folder.write("index.obj", kCorners + "f 1 2 9\n");
   folder.write("tiny.obj", "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n");
-  folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
-  folder.write("binary.obj", "\x7F"s + "ELF\0\1\2\3"s);
   folder.write("mesh.stl", "solid");
   folder.write("cut.tri", "TRI1\1");
-  folder.write("lies.tri", "TRI1" + le(4) + le(4) + le(0xFFFFFFFF) + "xxxx");
   std::string floats;  // a triangle with infinity, one with NaN, a valid one
   for (const std::uint32_t first : {0x7F800000u, 0x7FC00000u, 0x3F800000u})
     floats +=
         le(first) + le(0) + le(0) + le(0x41000000) + le(0) + le(0) + le(0) + le(0x41000000) + le(0) + le(7);
   folder.write("nan.tri", "TRI1" + le(8) + le(8) + le(3) + floats);
-  folder.write("text.png", "not a picture");
   folder.write("large.tri", "TRI1" + le(4) + le(4) + le((1 << 30) + 1));
   folder.write("wide.png",
                "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\x0f\x42\x40\0\x0f\x42\x40\x08\x02\0\0\0\xd3\x0f\xaf\x2a"s);
   folder.write("small.ppm", "P6\n1 1\n255\nabc");
   folder.write("other.ppm", "P6\n1 1\n255\nxyz");
   folder.write("large.ppm", "P6\n2 1\n255\nabcdef");
-  folder.write("cut.ppm", "P6\n2 2\n255\nabc");
   folder.write("depth.pfm", "Pf\n1 1\n-1.0\n\0\0\0\0"s);
 }
 

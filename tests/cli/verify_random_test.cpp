@@ -21,7 +21,6 @@
 #include "message_of.h"
 #include "run_program.h"
 #include "support.h"
-#include "support/options.h"
 #include "temp_dir.h"
 #include "wrong_backend.h"
 
@@ -371,12 +370,6 @@ TEST(GuardedFrame, CountsWordsWrittenOutsideThePicture) {
     EXPECT_EQ(frame.written_outside(), layout.padding > 0 ? 3u : 2u);
     EXPECT_EQ(frame.copy().depth_row(3)[4], 1u);
   }
-}
-
-TEST(VerifyRandomOptions, DurationsHaveUnits) {
-  EXPECT_EQ(tools::parse_duration("--for", "90s"), 90.0);
-  EXPECT_EQ(tools::parse_duration("--for", "20m"), 1200.0);
-  EXPECT_EQ(tools::parse_duration("--for", "1.5h"), 5400.0);
 }
 
 TEST(VerifyRandomProgram, WritesALineOnStdout) {

@@ -1,5 +1,5 @@
-// The cores that a process may use, names of machines, external text on the terminal and in JSON, and
-// uncaught exceptions. invalid_inputs.h tests signals, streams and limits.
+// The cores that a process may use, names of machines, values of options, external text on the terminal and in
+// JSON, and uncaught exceptions. invalid_inputs.h tests signals, streams and limits.
 #include <gtest/gtest.h>
 #include <sched.h>
 
@@ -15,6 +15,7 @@
 #include "support/cores.h"
 #include "support/json.h"
 #include "support/machine.h"
+#include "support/options.h"
 #include "support/printable.h"
 #include "support/process.h"
 
@@ -121,6 +122,23 @@ TEST(CpuModel, DistinguishesCpusOfTheSameName) {
   EXPECT_EQ(model_of("", "CPU implementer\t: 0x41\nCPU part\t: 0xd0c\n"),
             "ARM (implementer 0x41, part 0xd0c)");
   EXPECT_EQ(cpu_model((folder.path() / "missing").string()), "unknown");
+}
+
+// ---- Values of options
+
+TEST(OptionValues, OfAnotherFormOrOutOfRangeAreRefused) {
+  for (const auto text : {"", "5", "-4x5", "16385x5", "4294967297x5", "99999999999999999999x5", "5x5x5", "5.5x5"})
+    EXPECT_THROW(parse_size("", text), std::invalid_argument) << text;
+  for (const auto text : {"", "0", "257", "1.5", "1e2", "nan", "99999999999999999999"})
+    EXPECT_THROW(parse_number("", text, 1, 256), std::invalid_argument) << text;
+  for (const auto text : {"18446744073709551616", "-1"})
+    EXPECT_THROW(parse_number<std::uint64_t>("", text, 0, ~std::uint64_t{0}), std::invalid_argument) << text;
+  for (const auto text : {"", "1,2", "1,2,3,4", "1,2,inf", "1,nan,3", "1,2,1e400"})
+    EXPECT_THROW(parse_vector("", text), std::invalid_argument) << text;
+  for (const auto text : {"", "20", "nans", "0s", "-1m", "1e9h"})
+    EXPECT_THROW(parse_duration("", text), std::invalid_argument) << text;
+  for (const auto& [text, seconds] : {std::pair{"90s", 90.0}, {"20m", 1200.0}, {"1.5h", 5400.0}})
+    EXPECT_EQ(parse_duration("", text), seconds);
 }
 
 // ---- External text
