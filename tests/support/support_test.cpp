@@ -102,6 +102,7 @@ TEST(UsableCores, AreThoseOfTheAffinityMask) {
   const std::string expected =
       machine_cores() == 1 ? "-1-core\n" : "-1-of-" + std::to_string(machine_cores()) + "-cores\n";
   EXPECT_TRUE(name.ends_with(expected)) << name;
+  EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-\n"), std::string::npos) << name;
 }
 
 // ---- Names of machines
