@@ -40,24 +40,6 @@ TEST(CoverageCases, FloatsOpenGapsInAFan) {
   EXPECT_EQ(cracks_of("float_equation", fan).at_shared_edges(), 0u);
 }
 
-TEST(CoverageCases, FinerSnappingMakesFewerErrors) {
-  for (const auto name : {"fan", "mesh"}) {
-    std::uint64_t coarser = ~std::uint64_t{0};
-    for (const auto method : {"whole_pixel", "fixed_4", "fixed_8", "fixed_12", "fixed_16"}) {
-      const std::uint64_t errors = against_floats(method, picture_of(name)).errors();
-      EXPECT_LT(errors, coarser) << method << " in " << name;
-      coarser = errors;
-    }
-  }
-}
-
-TEST(CoverageCases, TallSliversShowDrift) {
-  const Picture& slivers = picture_of("tall_slivers");
-  EXPECT_GT(against_floats("dda_16_16", slivers).errors(), 0u);
-  EXPECT_EQ(against_floats("fixed_16", slivers).errors(), 0u);
-  EXPECT_GT(cracks_of("dda_rounded", slivers).double_hits.size(), 900u);
-}
-
 TEST(CoverageCases, AllBackendsLeaveTheSameGapsAtATJunction) {
   const Picture &cracked = picture_of("t_junction"), &split = picture_of("t_junction_split");
   for (const auto& backend : backends()) {
@@ -66,14 +48,6 @@ TEST(CoverageCases, AllBackendsLeaveTheSameGapsAtATJunction) {
     EXPECT_EQ(open.at_shared_edges(), 0u) << backend.name << ": the T-junction is no shared edge";
     EXPECT_EQ(closed.at_t_junctions() + closed.at_shared_edges(), 0u) << backend.name;
   }
-}
-
-TEST(CoverageCases, WholePixelVerticesLoseAndFlipSmallTriangles) {
-  const Picture& small = picture_of("small_triangles");
-  EXPECT_GT(cracks_of("whole_pixel", small).folds.size(), 0u);
-  EXPECT_EQ(cracks_of("whole_pixel", small).at_shared_edges(), 0u);
-  EXPECT_GT(against_floats("whole_pixel", small).errors(),
-            10 * against_floats("fixed_4", small).errors() / 2);
 }
 
 TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {

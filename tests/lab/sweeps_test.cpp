@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -57,34 +55,6 @@ std::vector<std::string_view> sweep_names() {
 
 class EverySweep : public ::testing::TestWithParam<std::string_view> {};
 
-void expect_schema(const nlohmann::json& json, const SweepResult& result) {
-  const Sweep& sweep = *result.sweep;
-  EXPECT_EQ(json.at("name"), sweep.name);
-  EXPECT_EQ(json.at("family"), name_of(sweep.family));
-  EXPECT_FALSE(json.at("summary").get<std::string>().empty());
-  for (const char* key : {"name", "unit"}) EXPECT_TRUE(json.at("x").at(key).is_string());
-  EXPECT_TRUE(json.at("y").at("name").is_string());
-  for (const char* axis : {"x", "y"}) EXPECT_TRUE(json.at(axis).at("log").is_boolean());
-  const auto methods = swept_methods(sweep.family);
-  const auto& curves = json.at("curves");
-  ASSERT_EQ(curves.size(), methods.size());
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    EXPECT_EQ(curves[i].at("method"), methods[i].name);
-    EXPECT_EQ(curves[i].at("source"), methods[i].source);
-    ASSERT_EQ(curves[i].at("points").size(), sweep.positions.size());
-    ASSERT_EQ(curves[i].at("trials").size(), sweep.positions.size());
-    const auto start = result.starts_to_fail(i);
-    EXPECT_EQ(curves[i].at("starts_to_fail"), start ? nlohmann::json(*start) : nlohmann::json());
-    for (std::size_t position = 0; position < sweep.positions.size(); ++position) {
-      const Tally& tally = result.at[position].methods[i];
-      EXPECT_EQ(curves[i]["points"][position][0], sweep.positions[position]);
-      EXPECT_EQ(curves[i]["trials"][position], tally.trials);
-      EXPECT_GT(tally.trials, 0u) << methods[i].name << " at " << sweep.positions[position];
-      EXPECT_DOUBLE_EQ(curves[i]["points"][position][1].get<double>(), sweep.y.scale * rate(tally));
-    }
-  }
-}
-
 TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
   const Sweep& sweep = find_sweep(GetParam());
   int calls = 0;
@@ -94,8 +64,6 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
   const bool up = sweep.positions.front() < sweep.positions.back();
   EXPECT_TRUE(up ? std::is_sorted(sweep.positions.begin(), sweep.positions.end())
                  : std::is_sorted(sweep.positions.rbegin(), sweep.positions.rend()));
-  expect_schema(tools::sweep_json(result), result);
-
   const auto methods = swept_methods(sweep.family);
   bool some_fail = false;
   for (std::size_t i = 0; i < methods.size(); ++i) some_fail = some_fail || result.starts_to_fail(i);
@@ -118,16 +86,6 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EverySweep, ::testing::ValuesIn(sweep_names()),
                          [](const auto& param) { return std::string(param.param); });
-
-TEST(SweepRegistry, HoldsEveryFamilyAndNoNameTwice) {
-  std::set<std::string_view> names;
-  std::set<Family> families;
-  for (const Sweep& sweep : sweeps()) {
-    EXPECT_TRUE(names.insert(sweep.name).second) << sweep.name;
-    families.insert(sweep.family);
-  }
-  EXPECT_EQ(families.size(), kFamilies.size());
-}
 
 TEST(Sweeps, DoNotDependOnThreads) {
   for (const auto name : {"legs", "cycle", "vertex_w"}) {
