@@ -117,8 +117,9 @@ TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
       for (const std::uint32_t i : group) {
         EXPECT_TRUE(seen.insert(i).second);
         const auto box = contract::pixel_box(triangles[i], kWidth, kHeight);
-        for (int y = box.y0 - margin; y < box.y1 + margin; ++y)
-          for (int x = box.x0 - margin; x < box.x1 + margin; ++x) EXPECT_TRUE(used.insert({x, y}).second);
+        for (int y = std::max(box.y0 - margin, 0); y < std::min(box.y1 + margin, kHeight); ++y)
+          for (int x = std::max(box.x0 - margin, 0); x < std::min(box.x1 + margin, kWidth); ++x)
+            EXPECT_TRUE(used.insert({x, y}).second);
       }
     }
     for (std::uint32_t i = 0; i < triangles.size(); ++i)

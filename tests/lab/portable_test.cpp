@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "edgewise/builtin.h"
+#include "lab/coverage_support.h"
 #include "lab/truth/truth.h"
 #include "lab/view_space.h"
 #include "message_of.h"
-#include "support.h"
 
 namespace edgewise::lab {
 namespace {
@@ -48,10 +47,10 @@ TEST(Portable, FindsSamplesThatAnEdgeMayReach) {
   constexpr float kStep = 1.0f / 256;
   EXPECT_EQ(count(judged(with_edge(0)), Unstable::tie), 1u * kHeight);
   EXPECT_EQ(count(judged(with_edge(0)), Unstable::no), 1u * kHeight * (kWidth - 1));
-  EXPECT_EQ(count(judged(with_edge(0.9f * kStep)), Unstable::edge), 1u * kHeight);
-  EXPECT_EQ(count(judged(with_edge(-0.9f * kStep)), Unstable::edge), 1u * kHeight);
-  EXPECT_EQ(count(judged(with_edge(1.1f * kStep)), Unstable::no), 1u * kHeight * kWidth);
-  EXPECT_EQ(count(judged(with_edge(-1.1f * kStep)), Unstable::no), 1u * kHeight * kWidth);
+  for (const float side : {-kStep, kStep}) {
+    EXPECT_EQ(count(judged(with_edge(0.9f * side)), Unstable::edge), 1u * kHeight);
+    EXPECT_EQ(count(judged(with_edge(1.1f * side)), Unstable::no), 1u * kHeight * kWidth);
+  }
   EXPECT_EQ(count(judged(with_edge(1.1f * kStep), {.subpixel_bits = 7}), Unstable::edge), 1u * kHeight);
   EXPECT_EQ(count(judged(with_edge(1.1f * kStep), {.transform_ulps = 250}), Unstable::edge), 1u * kHeight);
 
@@ -86,10 +85,7 @@ TEST(Portable, FindsDepthsThatRoundingMayReverse) {
   EXPECT_EQ(near_gap(0x1p-18, {}), 0u);
   EXPECT_EQ(near_gap(0x1p-17, coarse), 1u * kWidth * kHeight);
   EXPECT_EQ(near_gap(0x1p-14, coarse), 0u);
-}
-
-TEST(Portable, FindsDepthsThatRoundToTheClearValue) {
-  const Conformance coarse{.depth = find_depth_format("d16_unorm")};
+  // Depths that round to the clear value.
   EXPECT_EQ(count(judged({wall(1.0f - 0x1p-18f, 0)}, coarse), Unstable::depth), 1u * kWidth * kHeight);
   EXPECT_EQ(count(judged({wall(1.0f - 0x1p-14f, 0)}, coarse), Unstable::depth), 0u);
   EXPECT_EQ(count(judged({wall(1.0f, 0)}), Unstable::depth), 1u * kWidth * kHeight);
@@ -180,12 +176,11 @@ struct FloatPlane {
 // depth by less than the error of a float z / w, evaluates depth planes in floats, rounds to the format, and
 // clears to 1. Of float depth buffers, every second one is reversed.
 std::vector<std::uint32_t> drawn_by_a_witness(const std::vector<PortableTriangle>& triangles, double step_px,
-                                              const DepthFormat& format, std::uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> error(-1.0, 1.0);
+                                              const DepthFormat& format, std::uint64_t seed) {
+  Random random(seed);
   // Most errors have the largest allowed size: these reveal a mask that is too small.
   const auto moved = [&](float value, double largest) {
-    const double share = error(random);
+    const double share = random.uniform(-1.0f, 1.0f);
     return static_cast<float>(double{value} +
                               largest * (std::abs(share) > 0.5 ? std::copysign(0.999, share) : share));
   };
@@ -215,27 +210,18 @@ std::vector<std::uint32_t> drawn_by_a_witness(const std::vector<PortableTriangle
   return visible;
 }
 
-// Small and large triangles, some with vertices on a coarse grid, so that edges run through samples. Every
-// fifth depth is that of a neighbour.
-std::vector<PortableTriangle> random_triangles(std::uint32_t seed) {
-  std::mt19937 random(seed);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
+// Each float family; most depths are near one another, and every fifth is that of a neighbour.
+std::vector<PortableTriangle> random_triangles(std::uint64_t seed) {
+  Random random(seed);
+  const auto family = testing::kFloatFamilies[seed % std::size(testing::kFloatFamilies)];
+  const int count = 2 + static_cast<int>(random.below(30));
   std::vector<PortableTriangle> triangles;
-  const int n = static_cast<int>(random() % 30) + 2;
-  for (int i = 0; i < n; ++i) {
-    const double reach = std::exp(uniform(0.0, 4.0)), cx = uniform(0, kWidth), cy = uniform(0, kHeight);
-    const double grid = random() % 2 == 0 ? 2.0 : 1024.0, z = uniform(0.1, 0.9);
-    PortableTriangle t{{}, static_cast<std::uint32_t>(i), true, false};
-    for (int k = 0; k < 3; ++k) {
-      t.at.x_px[k] = static_cast<float>(std::round((cx + uniform(-reach, reach)) * grid) / grid);
-      t.at.y_px[k] = static_cast<float>(std::round((cy + uniform(-reach, reach)) * grid) / grid);
-      t.at.z01[k] = static_cast<float>(z + (random() % 2 == 0 ? uniform(-0.05, 0.05) : 0.0));
-    }
-    if (random() % 8 == 0) std::fill_n(t.at.z01, 3, static_cast<float>(1.0 - uniform(0.0, 0x1p-22)));
-    if (i > 0 && random() % 5 == 0) std::copy_n(triangles.back().at.z01, 3, t.at.z01);
-    triangles.push_back(t);
+  for (const FloatTriangle& t : testing::hard_floats(family, count, {kWidth, kHeight}, seed)) {
+    const auto id = static_cast<std::uint32_t>(triangles.size());
+    PortableTriangle& made = triangles.emplace_back(PortableTriangle{t.at, id, true, false});
+    for (float& z : made.at.z01) z = 0.1f + 0.8f * made.at.z01[0] + 0.1f * (z - made.at.z01[0]);
+    if (random.below(8) == 0) std::fill_n(made.at.z01, 3, 1.0f - random.uniform(0.0f, 0x1p-22f));
+    if (id > 0 && random.below(5) == 0) std::copy_n(triangles[id - 1].at.z01, 3, made.at.z01);
   }
   return triangles;
 }
@@ -244,16 +230,14 @@ struct Disagreement {
   std::uint64_t inside = 0, outside = 0;  // of the mask, px
 };
 
-Disagreement witnesses_disagree(int bits, const Conformance& model, int scenes) {
+Disagreement witnesses_disagree(int bits, const Conformance& model, std::uint64_t scenes) {
   Disagreement result;
-  for (int seed = 0; seed < scenes; ++seed) {
-    const auto triangles = random_triangles(static_cast<std::uint32_t>(seed));
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    const auto triangles = random_triangles(seed);
     const PortablePixels mask = portable_pixels(triangles, kWidth, kHeight, model, 1);
     const double step_px = std::ldexp(1.0, -bits);
-    const auto first =
-        drawn_by_a_witness(triangles, step_px, model.depth, static_cast<std::uint32_t>(2 * seed));
-    const auto second =
-        drawn_by_a_witness(triangles, step_px, model.depth, static_cast<std::uint32_t>(2 * seed + 1));
+    const auto first = drawn_by_a_witness(triangles, step_px, model.depth, 2 * seed);
+    const auto second = drawn_by_a_witness(triangles, step_px, model.depth, 2 * seed + 1);
     for (std::size_t i = 0; i < first.size(); ++i)
       if (first[i] != second[i]) ++(mask.reasons[i] == Unstable::no ? result.outside : result.inside);
   }
@@ -261,7 +245,7 @@ Disagreement witnesses_disagree(int bits, const Conformance& model, int scenes) 
 }
 
 TEST(Portable, NoTwoConformantRasterizersDifferOutsideTheMask) {
-  const int scenes = testing::full_size() ? 10'000 : 300;
+  const std::uint64_t scenes = testing::full_size() ? 10'000 : 300;
   for (const int bits : {4, 8, 12})
     for (const DepthFormat& format : depth_formats()) {
       const Disagreement found = witnesses_disagree(bits, {.subpixel_bits = bits, .depth = format}, scenes);

@@ -1,7 +1,6 @@
 // Checks every coverage method against its promise, and its SIMD forms against its scalar one.
 #include <gtest/gtest.h>
 
-#include <set>
 #include <stdexcept>
 
 #include "lab/coverage/coverage.h"
@@ -158,34 +157,10 @@ TEST_P(EveryCoverageMethod, DrawsTheNearestTriangleThatItCovers) {
     }
 }
 
-TEST_P(EveryCoverageMethod, DrawsTheSameFarFromTheOriginIfNothingIsRounded) {
-  // No edge of the square touches a sample. Every coordinate and product is exact in every method.
-  const auto square = [](float x, float y) {
-    std::vector<FloatTriangle> list(
-        2, {{{x + 8, x + 16, x + 16}, {y + 8, y + 8, y + 16}, {0.5f, 0.5f, 0.5f}}, 1});
-    list[1].at.x_px[1] = x + 8, list[1].at.y_px[1] = y + 16;
-    return list;
-  };
-  const Picture near(square(0, 0), {16, 16}), far(square(28672, 20480), {16, 16, 28672, 20480});
-  const CoverageScore score = score_coverage(near.by_grid, drawn_by(method_, near), near.floats);
-  EXPECT_EQ(score_coverage(far.by_grid, drawn_by(method_, far), far.floats), score);
-  EXPECT_EQ(far.by_grid.covered, 64u);
-}
-
-TEST_P(EveryCoverageMethod, IsDescribed) {
-  for (const auto text : {method_.info.name, method_.info.summary, method_.info.source, method_.info.promise})
-    EXPECT_FALSE(text.empty());
-}
-
-INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(names_of(coverage_methods())),
-                         [](const auto& param) { return testing::test_name(param); });
-
 // ---- The same pixels and depths with every SIMD target
 
-class EveryCoverageForm : public ::testing::TestWithParam<std::string_view> {
+class EveryCoverageForm : public EveryCoverageMethod {
  protected:
-  const CoverageMethod& method_ = find_coverage_method(GetParam());
-
   void expect_same(const std::vector<FloatTriangle>& floats, Size size, const std::string& what) {
     const std::vector<ScreenTriangle> grid =
         method_.contract_depth ? snapped(floats) : std::vector<ScreenTriangle>{};
@@ -225,35 +200,20 @@ TEST_P(EveryCoverageForm, DrawsTrianglesThatReachFarOutOfTheImage) {
   constexpr Size kSize{640, 90};
   Random random(17);
   for (const float reach : {200.0f, 3000.0f, 15000.0f}) {
-    std::vector<FloatTriangle> triangles(200);
-    std::uint32_t id = 1;
-    for (auto& [t, payload] : triangles) {
-      payload = id++;
+    auto triangles = hard_floats("anywhere", 200, {kSize.width, kSize.height}, 17);
+    for (FloatTriangle& t : triangles)
       for (int i = 0; i < 3; ++i) {
-        t.x_px[i] = random.uniform(-reach, 640.0f + reach);
-        t.y_px[i] = random.uniform(-reach, 90.0f + reach);
-        t.z01[i] = random.uniform(0.0f, 1.0f);
+        t.at.x_px[i] += random.uniform(-reach, reach);
+        t.at.y_px[i] += random.uniform(-reach, reach);
       }
-    }
     expect_same(triangles, kSize, std::to_string(reach) + " px outside");
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(names_of(coverage_methods())),
+                         [](const auto& param) { return testing::test_name(param); });
 INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageForm, ::testing::ValuesIn(names_of(coverage_methods())),
                          [](const auto& param) { return testing::test_name(param); });
-
-TEST(CoverageForms, MethodsWithoutSimdFormSayWhy) {
-  for (const CoverageMethod& method : coverage_methods())
-    EXPECT_EQ(method.simd, method.simd_note.empty()) << method.info.name;
-}
-
-TEST(CoverageRegistry, HoldsEveryBackendAndTheTableOnce) {
-  std::multiset<std::string_view> names;
-  for (const auto& method : coverage_methods()) names.insert(method.info.name);
-  for (const auto& backend : backends()) EXPECT_EQ(names.count(backend.name), 1u) << backend.name;
-  for (const auto& method : coverage_table())
-    EXPECT_EQ(names.count(method.info.name), 1u) << method.info.name;
-}
 
 TEST(CoverageMethods, Dda1616WrapsPast32767Pixels) {
   const auto errors = [](int x0) {
