@@ -19,13 +19,6 @@ Outcome stability(const std::string& arguments) {
   return testing::run_program(EDGEWISE_PROGRAM, "stability " + arguments);
 }
 
-TEST(StabilityCommand, ListsAllSweeps) {
-  const Outcome outcome = stability("--list");
-  EXPECT_EQ(outcome.status, 0);
-  for (const lab::Sweep& sweep : lab::sweeps())
-    EXPECT_NE(outcome.out.find(std::string(sweep.name) + ' '), std::string::npos) << sweep.name;
-}
-
 TEST(StabilityCommand, TableAndJsonHaveTheSameResults) {
   const TempDir folder;
   const std::string path = (folder.path() / "stability.json").string();

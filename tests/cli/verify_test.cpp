@@ -115,11 +115,8 @@ TEST(Verify, FindsOneBitAndShowsIt) {
   EXPECT_FALSE(report_json(report, plan).at("ok"));
 }
 
-TEST(Verify, FindsAMissingBackground) {
+TEST(Verify, FindsAMissingBackgroundAndAnErrorInASingleConfiguration) {
   EXPECT_FALSE(verify_quietly(small_plan({"cube"}, testing::wrong_backend<ForgetsBackground>())).ok());
-}
-
-TEST(Verify, FindsAnErrorInASingleConfiguration) {
   const VerifyReport report = verify_quietly(small_plan({"cube"}, testing::wrong_backend<WrongOnThreads>()));
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.scenes[0].mismatches[0].drawn.how.execution.threads, 3);
