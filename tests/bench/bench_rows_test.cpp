@@ -102,7 +102,9 @@ TEST(BenchSuite, RefusesTwoSourcesOfOneName) {
   const TempDir a, b;
   const std::string first = a.write("x.obj", kMesh), second = b.write("x.obj", kMesh);
   const std::string clash = b.write("a_b.obj", kMesh), colon = a.write("a:b.obj", kMesh);
-  EXPECT_EQ(message_of([&] { make_suite(only({first, second})); }),
+  EXPECT_EQ(message_of([&] {
+              make_suite(only({first, second}));
+            }),
             "--scene " + first + " and --scene " + second + " would both be named 'x'");
   EXPECT_NE(message_of([&] { make_suite(only({"cube", "cube"})); }), "");
   EXPECT_NE(message_of([&] { make_suite(only({clash, colon})); }), "");

@@ -44,7 +44,8 @@ TEST(Program, ListsEveryRegistry) {
   EXPECT_EQ(json.at("simd_targets").size(), supported_targets().size());
   EXPECT_EQ(json.at("simd_best"), name_of(supported_targets().back()));
   const std::string text = edgewise_with("list").out;
-  for (const SceneInfo& scene : builtin_scenes()) EXPECT_NE(text.find(scene.name), std::string::npos) << scene.name;
+  for (const SceneInfo& scene : builtin_scenes())
+    EXPECT_NE(text.find(scene.name), std::string::npos) << scene.name;
 }
 
 TEST(Program, HashesAreThoseOfEveryBackendAndAddUp) {
@@ -140,7 +141,8 @@ TEST_F(ProgramRenders, FilesWithWarningsAndPrintsEachOnce) {
 }
 
 TEST_F(ProgramRenders, TheSamePictureInEveryFormatAndByEveryBackend) {
-  ASSERT_EQ(edgewise_with("render cube --size 97x61 -o " + path("a.png") + " --depth " + path("a.pfm")).status, 0);
+  ASSERT_EQ(
+      edgewise_with("render cube --size 97x61 -o " + path("a.png") + " --depth " + path("a.pfm")).status, 0);
   const Image png = read_image(path("a.png"));
   EXPECT_EQ(png.width, 97);
   EXPECT_EQ(png.height, 61);
@@ -356,7 +358,8 @@ TEST_F(ProgramRenders, FilesWhoseSamplesAreEqualOrDiffer) {
 TEST_F(ProgramRenders, PicturesThatDiffComparesOutsideTheMask) {
   const std::string golden = path("golden.png"), mask = path("mask.png");
   const auto portable = nlohmann::json::parse(
-      edgewise_with("portable cube --size 64x64 --bits 1 --ids --json -o " + mask + " --picture " + golden).out);
+      edgewise_with("portable cube --size 64x64 --bits 1 --ids --json -o " + mask + " --picture " + golden)
+          .out);
   EXPECT_GT(portable.at("unstable"), 0);
   EXPECT_EQ(portable.at("reasons").at("edge"), portable.at("unstable"));
   ASSERT_EQ(edgewise_with("render cube --size 64x64 --payload id -o " + path("ids.png")).status, 0);
@@ -365,7 +368,8 @@ TEST_F(ProgramRenders, PicturesThatDiffComparesOutsideTheMask) {
   Image ids = read_image(path("ids.png"));
   const Image marked = read_image(mask);
   for (const bool inside : {true, false}) {
-    const auto at = std::ranges::find(marked.pixels, inside, [](auto pixel) { return (pixel & 0xFFFFFF) != 0; });
+    const auto at =
+        std::ranges::find(marked.pixels, inside, [](auto pixel) { return (pixel & 0xFFFFFF) != 0; });
     ids.pixels[static_cast<std::size_t>(at - marked.pixels.begin())] ^= 1;
     write_image(path("ids.png"), ids);
     EXPECT_EQ(diff("golden.png", "ids.png"), 1);
@@ -408,7 +412,8 @@ TEST(Program, NeedsFollowsMotionAndOrbit) {
   EXPECT_EQ(judged("").at("frames"), 1);
   EXPECT_EQ(judged("--frames 4").at("frames"), 4);
   // Straight above and below, where an orbit needs another axis.
-  for (const std::string eye : {"0,6,0", "-0,-6,0"}) EXPECT_EQ(judged("--orbit 3 --ranges --eye " + eye).at("frames"), 3);
+  for (const std::string eye : {"0,6,0", "-0,-6,0"})
+    EXPECT_EQ(judged("--orbit 3 --ranges --eye " + eye).at("frames"), 3);
   const auto orbit = judged("--orbit 5");
   EXPECT_EQ(orbit.at("frames"), 5);
   EXPECT_EQ(orbit.at("minima").empty(), orbit.contains("closest"));

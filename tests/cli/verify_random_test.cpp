@@ -304,7 +304,8 @@ std::string finding_with(const Plan& plan, const std::string& text) {
 TEST(RandomFindings, IncludeEveryKindOfMistake) {
   Plan plan = plan_with<WritesBehindTheLastRow>(9, 6);
   plan.failure_folder = "/dev/null/failures";
-  for (const char* text : {"in 0 of ", "; 1 words written beside the image", "  no file: "}) finding_with(plan, text);
+  for (const char* text : {"in 0 of ", "; 1 words written beside the image", "  no file: "})
+    finding_with(plan, text);
   plan = plan_of(10, 40);
   plan.backends = {testing::wrong_backend<WrongReference>()};
   finding_with(plan, "wrong (1 thread, scalar, tile 64) differs from oracle");
@@ -324,8 +325,8 @@ TEST(RandomFindings, IncludeAWrongFrontEnd) {
       return wrong && !all.empty() ? all.first(all.size() - 1) : all;
     };
     plan.failure_folder = folder.path() / "failures";
-    const std::string finding =
-        finding_with(plan, by_threads ? "(stream, 11 bits): front end (" : " with matrices, 8 bits): front end (");
+    const std::string finding = finding_with(
+        plan, by_threads ? "(stream, 11 bits): front end (" : " with matrices, 8 bits): front end (");
     if (by_threads) EXPECT_EQ(read_tri(file_of(finding)).size(), 1u) << finding;
   }
 }

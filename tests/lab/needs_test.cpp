@@ -96,7 +96,8 @@ TEST(Needs, FindsExactlyTheSubpixelBitsThatASceneNeeds) {
     const TriangleStream scene =
         stream_of({left_edge_at(x + 0.5 + std::ldexp(1.0, -bits), between(random, 14, 30)),
                    left_edge_at(2 * between(random, 0, 5) + 1.5, between(random, 14, 30))});
-    const Question question = named(studied(scene, {.displacement = 0.0}).edges(), "subpixel bits, at most 0");
+    const Question question =
+        named(studied(scene, {.displacement = 0.0}).edges(), "subpixel bits, at most 0");
     ASSERT_NE(question.needed(), nullptr);
     ASSERT_EQ(question.needed()->name, bits_name(bits)) << "scene " << i;
     for (int fewer = 0; fewer < bits; ++fewer) {

@@ -1,5 +1,5 @@
-// The cores that a process may use, names of machines, values of options, external text on the terminal and in
-// JSON, and uncaught exceptions. invalid_inputs.h tests signals, streams and limits.
+// The cores that a process may use, names of machines, values of options, external text on the terminal and
+// in JSON, and uncaught exceptions. invalid_inputs.h tests signals, streams and limits.
 #include <gtest/gtest.h>
 #include <sched.h>
 
@@ -128,7 +128,8 @@ TEST(CpuModel, DistinguishesCpusOfTheSameName) {
 // ---- Values of options
 
 TEST(OptionValues, OfAnotherFormOrOutOfRangeAreRefused) {
-  for (const auto text : {"", "5", "-4x5", "16385x5", "4294967297x5", "99999999999999999999x5", "5x5x5", "5.5x5"})
+  for (const auto text :
+       {"", "5", "-4x5", "16385x5", "4294967297x5", "99999999999999999999x5", "5x5x5", "5.5x5"})
     EXPECT_THROW(parse_size("", text), std::invalid_argument) << text;
   for (const auto text : {"", "0", "257", "1.5", "1e2", "nan", "99999999999999999999"})
     EXPECT_THROW(parse_number("", text, 1, 256), std::invalid_argument) << text;
