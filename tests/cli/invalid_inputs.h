@@ -209,8 +209,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"bench $SHORT --benchmark_format=csv", 0, ""},
 
     // ---- Too little memory, too few threads
-    {"ulimit -v 400000; edgewise render cube --threads 1 --size 16384x16384 -o $DIR/a.png", 2,
-     "out of memory"},
     {"ulimit -v 400000; edgewise capture micro --scale 10 -o $DIR/a.tri", 2, "out of memory"},
     {"ulimit -v 400000; bench --no-peers --scene cube --size 16384x16384 --benchmark_out=$DIR/a", 2,
      "out of memory"},

@@ -13,6 +13,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/hash.h"
 #include "edgewise/image.h"
+#include "lab/sweeps/sweeps.h"
 #include "run_program.h"
 #include "temp_dir.h"
 
@@ -43,7 +44,8 @@ TEST(Program, ListsEveryRegistry) {
   EXPECT_EQ(json.at("backends").size(), backends().size() + compositions().size());
   EXPECT_EQ(json.at("simd_targets").size(), supported_targets().size());
   EXPECT_EQ(json.at("simd_best"), name_of(supported_targets().back()));
-  const std::string text = edgewise_with("list").out;
+  const std::string text = edgewise_with("list").out, sweeps = edgewise_with("stability --list").out;
+  for (const lab::Sweep& sweep : lab::sweeps()) EXPECT_NE(sweeps.find(sweep.name), std::string::npos);
   for (const SceneInfo& scene : builtin_scenes())
     EXPECT_NE(text.find(scene.name), std::string::npos) << scene.name;
 }
@@ -120,22 +122,16 @@ class ProgramRenders : public ::testing::Test {
 
 // Files are read twice if there are several.
 TEST_F(ProgramRenders, FilesWithWarningsAndPrintsEachOnce) {
-  const std::string a = folder_
-                            .write("a.obj",
-                                   "mtllib none.mtl\nv 5572094.001 0 0\nv 5572094.002 0 0\n"
-                                   "v 5572094.001 0.001 0\nf 1 2 3\nf 1 2\n")
-                            .string();
-  const std::string common = "render " + a + " cube --size 8x8 --no-shade -o " + path("");
-  const Outcome outcome = edgewise_with(common);
-  EXPECT_EQ(outcome.status, 0);
+  const std::string a = folder_.write("a.obj",
+                                      "mtllib none.mtl\nv 5572094.001 0 0\nv 5572094.002 0 0\n"
+                                      "v 5572094.001 0.001 0\nf 1 2 3\nf 1 2\n");
+  const Outcome outcome = edgewise_with("render " + a + " cube --size 8x8 --no-shade -o " + path(""));
   EXPECT_EQ(outcome.err, "warning: " + a + ": line 1: " + path("none.mtl") +
                              ": No such file or directory\nwarning: " + a +
                              ": line 6: 1 face of fewer than three corners skipped\n");
   const Outcome recentred =
       edgewise_with("render " + a + " --recentre --cull none --size 8x8 --no-shade -o " + path("b.ppm"));
-  EXPECT_EQ(recentred.status, 0);
-  EXPECT_TRUE(recentred.err.ends_with(
-      "\n" + a + ": recentred by 5572094.001953125,0.0009765625,0, which is subtracted from all positions\n"))
+  EXPECT_NE(recentred.err.find("recentred by 5572094.001953125,0.0009765625,0,"), std::string::npos)
       << recentred.err;
   EXPECT_NE(file_content(path("b.ppm")).find('\xC8'), std::string::npos) << "the triangle is seen";
 }
@@ -397,9 +393,11 @@ TEST_F(ProgramRenders, AGoldenPictureWithTheBitsOfTheMask) {
   }
 }
 
-TEST(Program, NeedsFits80ColumnsAndGivesItsEvidence) {
-  const Outcome outcome = edgewise_with("needs cube cubes --size 160x90 --tolerance 9 --threads 1");
+TEST_F(ProgramRenders, WhatASceneNeedsIn80ColumnsWithItsEvidence) {
+  const Outcome outcome =
+      edgewise_with("needs cube cubes --size 96x54 --tolerance 5 --pictures " + path("errors"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-visibility-painter_farthest.png")));
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   EXPECT_NE(outcome.out.find(" in frame 0: at ("), std::string::npos) << "a witness";
@@ -430,20 +428,10 @@ TEST_F(ProgramRenders, AnEmptyPictureAndSaysWhy) {
   for (const auto& [options, reason] : reasons) {
     const Outcome outcome = edgewise_with("render cube " + std::string(options) + " -o " + path("a.ppm"));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_TRUE(outcome.err.starts_with("edgewise: the picture of 'cube' is empty: ")) << outcome.err;
     EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   }
   EXPECT_EQ(edgewise_with("render cube -o " + path("a.ppm")).err, "");
   EXPECT_EQ(edgewise_with("render cube --wireframe -o " + path("a.ppm")).err, "");
-}
-
-TEST_F(ProgramRenders, WhatIsNotEnoughAsCloseups) {
-  const Outcome outcome =
-      edgewise_with("needs cubes --size 96x54 --tolerance 5 --pictures " + path("errors"));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-visibility-painter_farthest.png")));
-  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-facing_test-normal_dot_object.png")));
 }
 
 }  // namespace

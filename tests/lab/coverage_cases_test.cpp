@@ -72,19 +72,6 @@ TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
   EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
 }
 
-TEST(CoverageVisibleTriangles, OfBackendsAreExactAndDepthsSatisfyRuleSix) {
-  for (const CoverageCase& c : coverage_cases()) {
-    const Picture& picture = picture_of(c.name);
-    const VisibleTriangleJudge judge({c.size, picture.floats, picture.grid}, picture.cracks.surface(), 2);
-    for (const auto& backend : backends()) {
-      const VisibleTriangleScore score = judge.score(find_coverage_method(backend.name));
-      EXPECT_EQ(score.wrong_snapped, 0u) << backend.name << " in " << c.name;
-      EXPECT_LT(score.max_ulp, contract::kDepthError) << backend.name << " in " << c.name;
-      EXPECT_LE(score.rms_ulp, score.max_ulp) << backend.name << " in " << c.name;
-    }
-  }
-}
-
 // Intersecting triangles: if two depths differ by less than the error of rule 6, the wrong triangle may be
 // visible.
 TEST(CoverageVisibleTriangles, OfBackendsErrOnlyWithinTheDepthErrorOfRuleSix) {

@@ -87,14 +87,6 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
 INSTANTIATE_TEST_SUITE_P(Registry, EverySweep, ::testing::ValuesIn(sweep_names()),
                          [](const auto& param) { return std::string(param.param); });
 
-TEST(Sweeps, DoNotDependOnThreads) {
-  for (const auto name : {"legs", "cycle", "vertex_w"}) {
-    const SweepResult one = swept(name, 1), three = swept(name, 3);
-    for (std::size_t position = 0; position < one.at.size(); ++position)
-      EXPECT_EQ(one.at[position].methods, three.at[position].methods) << name;
-  }
-}
-
 TEST(Sweeps, StartToFailWhereErrorsExceedTheTolerance) {
   Sweep sweep{};
   sweep.positions = {8, 4, 2};
