@@ -118,11 +118,6 @@ TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   EXPECT_EQ(Found(legs, "float_le").start(), 64) << "ties";
 }
 
-TEST(CoverageSweeps, DistanceEndsWithTheContract) {
-  for (const auto name : {"distance", "distance_on_halves", "distance_on_our_grid"})
-    EXPECT_EQ(find_sweep(name).positions.back(), contract::kMaxImageSide);
-}
-
 // The rates are those of another program, for 60 such meshes. With boxes wider by a pixel, it counts 538,000
 // per 10^6 at 16384 px.
 TEST(CoverageSweeps, EdgeEquationsFailFarFromTheOriginWhereEdgesRelativeToAVertexHold) {
