@@ -375,7 +375,8 @@ TEST_F(AllPeers, DifferFromUsOnlyInPixelsOfRandomTrianglesThatAreNotPortable) {
   }
   // Of this one, beyond the guard band, llvmpipe draws nothing.
   TriangleStream far{96, 64, {}};
-  far.triangles.push_back({{{59.98f, 22.47f, 0.5f}, {-6323.7f, -3842.6f, 0.5f}, {-1129.1f, -2980.9f, 0.5f}}, 1});
+  far.triangles.push_back(
+      {{{59.98f, 22.47f, 0.5f}, {-6323.7f, -3842.6f, 0.5f}, {-1129.1f, -2980.9f, 0.5f}}, 1});
   expect_portable(*workload_of("far", far), "far");
 }
 

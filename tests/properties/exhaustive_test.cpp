@@ -89,8 +89,9 @@ TEST_P(EveryTriangle, OnTheLatticeMatchesTheOracle) {
         lab::poison(actual);
         made.get(info, way.tiles).draw(triangles, actual.view(), {kBackground}, way.execution);
         comparisons += triangles.size();
-        expect_same(expected, actual,
-                    std::string(info.name) + ", " + describe(way) + ", triangles from " + std::to_string(first));
+        expect_same(
+            expected, actual,
+            std::string(info.name) + ", " + describe(way) + ", triangles from " + std::to_string(first));
       }
   }
   RecordProperty("cases", std::to_string(lattice.triangles()));
