@@ -19,14 +19,12 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     // ---- Commands and options
     {"edgewise", 2, "no command given"},
     {"edgewise rendr cube", 2, "unknown command 'rendr'; did you mean 'render'"},
-    {"edgewise --verson", 2, "unknown option '--verson'; did you mean '--version'"},
     {"edgewise list --jsn", 2,
      "unknown option '--jsn'; did you mean '--json'? (edgewise list --help lists all)"},
     {"edgewise render cube --sise=10x10 -o $DIR/a.png", 2, "unknown option '--sise'; did you mean '--size'"},
     {"edgewise render", 2, "SCENE is required"},
     {"edgewise render cube -o ''", 2, "nothing to write"},
     {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/good.obj", 2, "is neither a PNG, "},
-    {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/none.png", 2, "none.png: No such file"},
     {"edgewise needs cube --frames 2 --orbit 2", 2, "--frames and --orbit cannot be combined"},
     {"edgewise needs grid64 --orbit 2", 2, "'grid64' is a stream of triangles and has no camera"},
     {"edgewise needs $IN/good.obj --frames 2", 2, "does not move; use --orbit"},
@@ -35,7 +33,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise needs cube --ranges --pictures $DIR/a", 2, "--pictures cannot be given"},
     {"edgewise needs cube cube --pictures $DIR/a", 2, "two scenes have the name 'cube'"},
     {"edgewise needs cube --seconds 2", 2, "--seconds needs --frames"},
-    {"edgewise needs cube --pictures $IN/small.ppm", 2, "not a folder"},
     {"edgewise portable cube --bits 12-16", 2, "--bits: '16' is not a whole number from 12 to 15"},
     {"edgewise render cube --subpixel-bits 3 -o $DIR/a.png", 2,
      "--subpixel-bits: '3' is not a whole number from 4 to 15"},
@@ -56,7 +53,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise render \"$(head -c 5000 /dev/zero | tr '\\0' x)\" -o $DIR/a.png", 2, "unknown scene 'xxx"},
     {"edgewise render cube --target avx9 -o $DIR/a.png", 2, "unknown SIMD target 'avx9'; did you mean 'avx"},
     {"edgewise render cube --payload hits --wireframe -o $DIR/a.png", 2, "does not fill triangles"},
-    {"edgewise accuracy drtk_squad --json $DIR/a.json", 2, "did you mean 'drtk_quad'"},
     {"edgewise accuracy drtk_quad --method llvmpipe --json $DIR/a.json", 2, "unknown method 'llvmpipe'"},
 
     // ---- The viewer
@@ -83,7 +79,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise render large --fov 50 -o $DIR/a.png", 2, "no camera"},
     {"edgewise verify --random --for 20", 2, "'20' is not a duration such as 90s, 20m or 2h"},
     {"edgewise verify --random --shard 3", 2, "'3' is not I/N"},
-    {"edgewise verify --random --shard 3/3", 2, "0 to 2"},
     {"edgewise verify --random --case 5 --shard 0/2", 2, "--shard excludes --case"},
     {"edgewise accuracy drtk_quad --method painter_mean --json $DIR/a.json", 2, "nothing to do"},
     {"bench --benchmark_filter='(' --benchmark_out=$DIR/a", 2, "Could not compile"},
@@ -95,7 +90,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise render $IN/mesh.stl -o $DIR/a.png", 2, "unknown kind of file"},
     {"mkdir $IN/folder.obj; edgewise render $IN/folder.obj -o $DIR/a.png", 2, "is a directory"},
     {"ln -s /dev/zero $IN/zero.tri; edgewise render $IN/zero.tri -o $DIR/a.png", 2, "not a regular file"},
-    {"mkfifo $IN/pipe.obj; edgewise render $IN/pipe.obj -o $DIR/a.png", 2, "not a regular file"},
     {"chmod 0 $IN/good.obj; unprivileged edgewise render $IN/good.obj -o $DIR/a.png", 2, "Permission denied"},
     {"edgewise render cube --recentre -o $DIR/a.png", 2, "--recentre: 'cube' is not a mesh file"},
     {"edgewise render $IN/tiny.obj --fit -o $DIR/a.png", 2, "tiny.obj: too small"},
@@ -117,12 +111,10 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     // ---- Standard input
     {"edgewise render - -o $DIR/a.png <&-", 2,
      "/dev/stdin: is neither a regular file, a pipe nor a terminal"},
-    {"edgewise render - -o $DIR/a.png </dev/zero", 2, "nor a terminal"},
     {"cat $IN/index.obj | edgewise render - -o $DIR/a.png", 2,
      "/dev/stdin: line 4: a face names vertex 9 of 3"},
     {"edgewise diff '' $IN/small.ppm", 2, ": No such file or directory"},
     {"edgewise diff - - <$IN/small.ppm", 2, "only one of A, B and --mask can be standard input"},
-    {"cat $IN/small.ppm | edgewise diff - /dev/fd/0", 2, "can be standard input"},
 
     // ---- Two outputs that are one file, and outputs that are inputs
     {"cd $DIR; edgewise portable cube --picture ./a.png -o a.png", 2, "would write the same file"},
@@ -170,7 +162,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "$DIR)/older.png",
      2, "would overwrite the input", "older.png"},
     {"edgewise render cube -o $DIR/no/a.png", 2, "/no/a.png: cannot be written: there is no folder "},
-    {"edgewise render cube -o /proc/a.png", 2, "/proc/a.png: cannot be written: No such file or directory"},
     {"edgewise render cube -o /dev/full/a.png", 2, "/dev/full/a.png: cannot be written: Not a directory"},
     {"edgewise render cube -o $DIR/$(head -c 300 /dev/zero | tr '\\0' x).png", 2, "File name too long"},
     {"edgewise accuracy drtk_quad --pictures /dev/null/x --json $DIR/a.json", 2, "not a folder"},
@@ -184,18 +175,13 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
 
     // ---- A full disk: ulimit -f counts in KiB
     {"ln -s /dev/full $IN/full.png; edgewise render cube -o $IN/full.png", 2, "No space left on device"},
-    {"ln -s /dev/full $IN/full.json; edgewise verify cube --size 65x33 --json $IN/full.json", 2,
-     "No space left"},
     {"ulimit -f 4; edgewise render torus-knot -o $DIR/a.png", 2, "a.png: cannot be written: File too large"},
-    {"ulimit -f 1; edgewise verify cube cubes sphere --size 65x33 --json $DIR/a.json", 2,
-     "a.json: cannot be written: File too large"},
     {"ulimit -f 1; bench $SHORT --benchmark_out=$DIR/a", 2, "a: cannot be written: File too large"},
     {"printf older >$DIR/older.ppm; ulimit -f 64; edgewise render cube --size 640x480 -o $DIR/older.ppm", 2,
      "File too large", "older.ppm"},
 
     // ---- Standard streams
     {"edgewise list >/dev/full", 2, "cannot write to standard output"},
-    {"edgewise render --help >/dev/full", 2, "cannot write to standard output"},
     {"bench $SHORT >/dev/full", 2, "cannot write to standard output"},
     {"edgewise list >&-", 2, "cannot write to standard output"},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm >&-", 2, "cannot write to standard output", "a.ppm"},
@@ -209,7 +195,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"bench $SHORT --benchmark_format=csv", 0, ""},
 
     // ---- Too little memory, too few threads
-    {"ulimit -v 400000; edgewise capture micro --scale 10 -o $DIR/a.tri", 2, "out of memory"},
     {"ulimit -v 400000; bench --no-peers --scene cube --size 16384x16384 --benchmark_out=$DIR/a", 2,
      "out of memory"},
     {"ulimit -u 1; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
@@ -223,8 +208,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     // Random pictures are counted until the signal.
     {"stopped INT edgewise verify --random --json $DIR/a.json", 130, "", "a.json"},
     {"stopped INT bench --benchmark_out=$DIR/a.json", 130, ""},
-    // Pictures are written one by one: complete ones may be left.
-    {"stopped INT edgewise accuracy edge_on t_junction --pictures $DIR/errors", 130, "", "errors"},
     {"printf older >$DIR/older.json; stopped KILL edgewise verify --full --json $DIR/older.json", 137, "",
      "older.json"},
     {"trap '' INT; edgewise verify cube --size 65x33 --json $DIR/a.json & kill -INT $!; wait $!", 0, "",

@@ -55,14 +55,11 @@ TEST(Program, HashesAreThoseOfEveryBackendAndAddUp) {
   ASSERT_EQ(tiled.status, 0) << tiled.err;
   EXPECT_EQ(edgewise_with(arguments + "naive --threads 1 --target scalar").out, tiled.out);
   const auto json = nlohmann::json::parse(tiled.out);
-  const auto number = [](const nlohmann::json& hash) {
-    return std::stoull(hash.get<std::string>(), nullptr, 16);
-  };
+  const auto number = [](const std::string& hash) { return std::stoull(hash, nullptr, 16); };
   std::vector<std::uint64_t> scenes;
   for (const auto& scene : json.at("scenes")) {
     std::vector<std::uint64_t> frames;
     for (const auto& frame : scene.at("frames")) frames.push_back(number(frame));
-    EXPECT_EQ(frames.size(), 3u);
     EXPECT_EQ(frames.front() == frames.back(), scene.at("scene") == "medium") << "the cube moves";
     scenes.push_back(hash_of_all(frames));
     EXPECT_EQ(number(scene.at("hash")), scenes.back());

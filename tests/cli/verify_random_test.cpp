@@ -126,7 +126,7 @@ TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
 }
 
 TEST(RandomCases, SomeScenesHaveMatrices) {
-  std::uint64_t scenes = 0, cases = 0, drawn = 0, usual = 0, parallel = 0;
+  std::uint64_t scenes = 0, cases = 0, drawn = 0;
   for (std::uint64_t number = 0; number < 1500; ++number) {
     const Case c = make_case(3, number);
     const auto* scene = c.drawable ? std::get_if<Scene>(&*c.drawable) : nullptr;
@@ -138,15 +138,9 @@ TEST(RandomCases, SomeScenesHaveMatrices) {
     EXPECT_FALSE(scene->matrices);
     const CameraMatrices m = std::get<Scene>(*other->drawable).matrices.value();
     EXPECT_EQ(m.projection, std::get<Scene>(*with_matrices(c)->drawable).matrices->projection);
-    const bool affine = m.view[3].w == 1.0 && m.view != glm::dmat4(1.0);
-    usual += affine && m.projection[3].w == 0.0 && m.projection[0].z == 0.0;
-    parallel += affine && m.projection[3].w == 1.0;
     drawn += Frontend().run(*other->drawable, other->frontend).size();
   }
   EXPECT_GT(cases, scenes / 4);
-  EXPECT_GT(usual, cases / 4);
-  EXPECT_GT(parallel, cases / 20);
-  EXPECT_GT(cases - usual - parallel, cases / 10);
   EXPECT_GT(drawn, 10 * cases);
 }
 
@@ -356,19 +350,14 @@ TEST(GuardedFrame, CountsWordsWrittenOutsideThePicture) {
   }
 }
 
-TEST(VerifyRandomProgram, WritesALineOnStdout) {
+TEST(VerifyRandomProgram, WritesALineOnStdoutAndAcceptsTheCasesOfTheMostShards) {
   const auto outcome = run_program(EDGEWISE_PROGRAM, "verify --random --seed 7 --case 123456 --json -");
   EXPECT_EQ(std::ranges::count(outcome.out, '\n'), 1) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json.at("cases"), 1);
   EXPECT_EQ(json.at("shard"), "123456/123457");
-}
-
-TEST(VerifyRandomProgram, AcceptsTheCasesOfTheMostShards) {
-  const std::string largest = std::to_string(kMostShards);
-  for (const std::string& chosen : {"--for 0.1s --shard 0/" + largest,
-                                    "--for 0.1s --shard " + std::to_string(kMostShards - 1) + '/' + largest,
-                                    std::string("--case 18446744073709551614")})
+  const std::string last = std::to_string(kMostShards - 1) + '/' + std::to_string(kMostShards);
+  for (const std::string& chosen : {"--for 0.1s --shard " + last, std::string("--case 18446744073709551614")})
     EXPECT_EQ(run_program(EDGEWISE_PROGRAM, "verify --random " + chosen).status, 0) << chosen;
 }
 

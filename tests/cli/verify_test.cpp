@@ -64,23 +64,6 @@ VerifyReport verify_quietly(const VerifyPlan& plan) {
   return verify(plan, {});
 }
 
-TEST(Verify, PassesEveryBackendOnEveryScene) {
-  VerifyPlan plan;
-  for (const SceneInfo& scene : builtin_scenes()) plan.scenes.emplace_back(scene.name);
-  plan.backends.assign(backends().begin(), backends().end());
-  plan.threads = {1, 2};
-  plan.size = Size{131, 71};
-  const VerifyReport report = verify_quietly(plan);
-  ASSERT_EQ(report.scenes.size(), plan.scenes.size());
-  for (const SceneVerdict& verdict : report.scenes) {
-    EXPECT_TRUE(verdict.ok()) << explain(verdict);
-    EXPECT_GT(verdict.emitted, 0u) << verdict.scene;
-    EXPECT_GT(verdict.oracle_configurations, 0u) << verdict.scene;
-    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? backends().size() : 0)
-        << verdict.scene;
-  }
-}
-
 TEST(Verify, FindsOneBitAndShowsIt) {
   const TempDir folder;
   VerifyPlan plan = small_plan({"cube"}, testing::wrong_backend<OneBitOff>());

@@ -95,24 +95,5 @@ TEST(Choice, CountsTheSameAsBruteForceByDoubles) {
   EXPECT_FALSE(judge.of_float_projection(1)) << "a stream's floats are not projected";
 }
 
-TEST(Choice, EachSceneMovesAndSeparatesTheMethods) {
-  for (const ChoiceScene& scene : choice_scenes(true)) {
-    const Drawable first = scene.make(0), last = scene.make(scene.frames - 1);
-    const auto counts = counts_of(last, scene.size);
-    EXPECT_EQ(counts.at("tiled_15").holes, 0u) << scene.name;
-    if (scene.name == "quads") {
-      EXPECT_GT(counts.at("float_lt").holes, 0u);
-    } else {
-      EXPECT_LT(counts.at("tiled_8").wrong, counts.at("fixed_4").wrong) << scene.name;
-      EXPECT_LT(counts.at("tiled_15").wrong, counts.at("tiled_8").wrong) << scene.name;
-    }
-    FrameDrawer one(scene.size), other(scene.size);
-    one.draw(first, methods().front(), Payload::id), other.draw(last, methods().front(), Payload::id);
-    EXPECT_FALSE(same_picture(*methods().front().method, one.canvas(), other.canvas())) << scene.name;
-    EXPECT_EQ(ChoiceJudge(last, scene.size, 1).of_float_projection(1).has_value(),
-              scene.name == "torus-knot");
-  }
-}
-
 }  // namespace
 }  // namespace edgewise::lab

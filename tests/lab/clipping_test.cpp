@@ -79,18 +79,6 @@ TEST(Clipping, DividingByZeroIsCaughtAndCounted) {
   EXPECT_GT(judge("none", make_case("beyond_the_guard_band")).out_of_range, 0u);
 }
 
-TEST(Clipping, QuadsNearerThanTheNearPlaneAreNotDrawn) {
-  const ClippingScene scene = make_case("quads_before_near");
-  const auto truth = clipping_truth(scene);
-  for (const auto name : {"near_guard", "screen_edges", "discard_behind"})
-    EXPECT_EQ(score(method(name), scene, truth).wrong(), 0u) << name;
-  for (const auto name : {"near_too_near", "none"}) {
-    const auto s = score(method(name), scene, truth);
-    EXPECT_GT(s.wrong_triangle, 100u) << name;
-    EXPECT_EQ(s.out_of_range, 12u) << name;
-  }
-}
-
 // Floats move an edge if both its ends are far beyond the method's reach, and the promise excludes such
 // edges.
 TEST(Clipping, FloatsMoveEdgesWhoseEndsAreFarOutOnBothSides) {

@@ -58,19 +58,6 @@ TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
   EXPECT_GT(turned, 0u);
 }
 
-TEST(Facing, OnlyNormalZMisjudgesTheBoxBesideTheAxis) {
-  const FacingScene scene = make_case("box_beside_the_axis");
-  const auto facts = facing_facts(scene);
-  EXPECT_TRUE(facts[0].source.front && facts[0].source.covers_sample);
-  for (const auto& m : facing_methods()) {
-    const auto s = score(m, scene, facts);
-    const bool by_z = m.info.name == "normal_z";
-    EXPECT_EQ(s.source.misclassified, by_z ? 1u : 0u) << m.info.name;
-    EXPECT_EQ(s.snapped.misclassified, by_z ? 1u : 0u) << m.info.name;
-    EXPECT_EQ(s.disagreements, by_z ? 1u : 0u) << m.info.name;
-  }
-}
-
 TEST(Facing, TheErrorRateOfNormalZIsTheTiltOver180Degrees) {
   for (const int degrees : {0, 15, 30, 60}) {
     const double tilt = degrees * 3.141592653589793 / 180;

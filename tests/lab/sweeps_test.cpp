@@ -160,17 +160,6 @@ TEST(CoverageSweeps, SnappingErrsOffItsGridOnlyAndAsOftenAsRoundingMovesEdgesAcr
   EXPECT_TRUE(Found(swept("pan"), "ours_8").start());
 }
 
-TEST(CoverageSweeps, AtPixelCentresAndHalvesOnlyTheTieRuleMatters) {
-  for (const std::string name : {"distance", "legs", "height"}) {
-    const SweepResult halves = swept(name + "_on_halves");
-    const double first = halves.sweep->positions.front();
-    for (const auto method : {"ours_8", "fixed_4", "float_top_left", "double_top_left"})
-      EXPECT_EQ(Found(halves, method).at(first).errors, 0u) << name << ", " << method;
-    for (const auto method : {"float_lt", "float_le"})
-      EXPECT_GT(rate(Found(halves, method).at(first)), 0.01) << name << ", " << method;
-  }
-}
-
 TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
   for (const auto name : {"separation_at_10", "separation_at_100"}) {
     const SweepResult separation = run_sweep(find_sweep(name), kFull, 2, [] {});

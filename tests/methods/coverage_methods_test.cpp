@@ -215,17 +215,6 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(name
 INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageForm, ::testing::ValuesIn(names_of(coverage_methods())),
                          [](const auto& param) { return testing::test_name(param); });
 
-TEST(CoverageMethods, Dda1616WrapsPast32767Pixels) {
-  const auto errors = [](int x0) {
-    const auto x = static_cast<float>(x0);
-    const Picture picture({{{{x + 1, x + 30, x + 5}, {1, 9, 30}, {0, 0, 0}}, 1}}, {32, 32, x0, 0});
-    EXPECT_GT(picture.by_floats.covered, 100u);
-    return against_floats("dda_16_16", picture).errors();
-  };
-  EXPECT_EQ(errors(32736), 0u);
-  EXPECT_GT(errors(32768), 100u);
-}
-
 TEST(CoverageMethods, RefuseTrianglesBeyondTheGuardBandForBackends) {
   const std::vector<FloatTriangle> far{{{{0, 30, 5}, {1, 9, 30}, {0, 0, 0}}, 1}};
   const auto grid = snapped(far);

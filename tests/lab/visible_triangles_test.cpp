@@ -1,62 +1,17 @@
-// The small coverage scenes show the failures for which they were made, in coverage and in visible triangles.
+// Visible triangles and depths of coverage methods, checked by hand, by brute force, and by rule 6.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
-#include "edgewise/contract.h"
 #include "lab/coverage/visible.h"
 #include "lab/coverage_support.h"
 
 namespace edgewise::lab {
 namespace {
 
-using testing::against_floats;
-using testing::cracks_of;
 using testing::find_coverage_method;
 using testing::Picture;
 using testing::picture_of;
-
-TEST(CoverageCases, TheDrtkQuadShowsTheTieRules) {
-  const Picture& quad = picture_of("drtk_quad");
-  EXPECT_EQ(cracks_of("float_le", quad).double_hits.size(), 6u);
-  EXPECT_EQ(cracks_of("float_le", quad).gaps.size(), 0u);
-  EXPECT_EQ(cracks_of("float_lt", quad).gaps.size(), 6u);
-  EXPECT_EQ(cracks_of("float_lt", quad).double_hits.size(), 0u);
-  for (const auto method : {"float_top_left", "float_equation", "float_equation_fma"})
-    EXPECT_EQ(against_floats(method, quad).errors(), 0u) << method;
-}
-
-TEST(CoverageCases, FloatsOpenGapsInAFan) {
-  const Picture& fan = picture_of("fan");
-  for (const auto method : {"float_top_left", "float_equation_fma", "float_incremental"}) {
-    EXPECT_GT(cracks_of(method, fan).gaps.size(), 0u) << method;
-    EXPECT_GT(cracks_of(method, fan).double_hits.size(), 0u) << method;
-  }
-  EXPECT_GT(against_floats("float_incremental", fan).errors(),
-            10 * against_floats("float_top_left", fan).errors());
-  // Its neighbours compute exactly opposite values, unless they are fused.
-  EXPECT_GT(against_floats("float_equation", fan).errors(), 0u);
-  EXPECT_EQ(cracks_of("float_equation", fan).at_shared_edges(), 0u);
-}
-
-TEST(CoverageCases, AllBackendsLeaveTheSameGapsAtATJunction) {
-  const Picture &cracked = picture_of("t_junction"), &split = picture_of("t_junction_split");
-  for (const auto& backend : backends()) {
-    const Cracks open = cracks_of(backend.name, cracked), closed = cracks_of(backend.name, split);
-    EXPECT_EQ(open.t_gaps.size(), 199u) << backend.name;
-    EXPECT_EQ(open.at_shared_edges(), 0u) << backend.name << ": the T-junction is no shared edge";
-    EXPECT_EQ(closed.at_t_junctions() + closed.at_shared_edges(), 0u) << backend.name;
-  }
-}
-
-TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {
-  const Picture& tie = picture_of("double_tie");
-  EXPECT_EQ(against_floats("double_top_left", tie).missing, 64u);
-  EXPECT_EQ(against_floats("double_top_left", tie).extra, 64u);
-}
-
-// ---- Visible triangles and depths, checked by hand, by brute force, and by rule 6
 
 VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
   return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid},
