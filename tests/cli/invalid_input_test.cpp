@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
@@ -166,23 +165,7 @@ TEST_P(InvalidInput, HasTheOutcomeInTheTable) {
   EXPECT_EQ(listing, row.left);
 }
 
-// The row's number, which makes the name unique, and the first letters and digits of its script.
-std::string row_name(const ::testing::TestParamInfo<InvalidInputRow>& row) {
-  constexpr std::size_t kLongest = 40;
-  std::string name = std::to_string(row.index) + '_';
-  std::string_view script = row.param.script;
-  if (script.starts_with("edgewise ")) script.remove_prefix(9);
-  for (const char c : script) {
-    if (name.size() == kLongest) break;
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-      name += c;
-    else if (name.back() != '_')
-      name += '_';
-  }
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Table, InvalidInput, ::testing::ValuesIn(kInvalidInputs), row_name);
+INSTANTIATE_TEST_SUITE_P(Table, InvalidInput, ::testing::ValuesIn(kInvalidInputs));
 
 // The exit status with a limited address space: 0, or 2 with a one-line message. None if the system's loader
 // cannot load the program (it prints its own message).

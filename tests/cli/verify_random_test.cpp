@@ -98,6 +98,7 @@ TEST(RandomCases, KeepTheGuardBandAtEverySize) {
 
 TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
   std::map<std::string, std::uint64_t> cases, drawn;
+  std::uint64_t scenes = 0, with = 0, drawn_with = 0;  // matrices
   std::set<int> threads;
   bool wide = false, single = false, several_chunks = false;
   for (std::uint64_t number = 0; number < 1500; ++number) {
@@ -113,7 +114,18 @@ TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
       drawn[c.family] += lab::covered_pixels(std::span(&t, 1), c.width, c.height) != 0 ? 1u : 0u;
     }
     if (c.drawable) drawn[c.family] += Frontend().run(*c.drawable, c.frontend).size();
+    const auto* scene = c.drawable ? std::get_if<Scene>(&*c.drawable) : nullptr;
+    scenes += scene != nullptr;
+    const auto other = with_matrices(c);
+    if (!other) continue;
+    ++with;
+    ASSERT_TRUE(scene != nullptr && !scene->matrices);
+    const CameraMatrices m = std::get<Scene>(*other->drawable).matrices.value();
+    EXPECT_EQ(m.projection, std::get<Scene>(*with_matrices(c)->drawable).matrices->projection);
+    drawn_with += Frontend().run(*other->drawable, other->frontend).size();
   }
+  EXPECT_GT(with, scenes / 4);
+  EXPECT_GT(drawn_with, 10 * with);
   EXPECT_EQ(cases.size(), lab::triangle_families().size() + scene_families().size());
   for (const auto& [family, count] : cases) {
     EXPECT_GT(count, 40u) << family;
@@ -123,25 +135,6 @@ TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
   EXPECT_TRUE(wide);
   EXPECT_TRUE(single);
   EXPECT_TRUE(several_chunks);
-}
-
-TEST(RandomCases, SomeScenesHaveMatrices) {
-  std::uint64_t scenes = 0, cases = 0, drawn = 0;
-  for (std::uint64_t number = 0; number < 1500; ++number) {
-    const Case c = make_case(3, number);
-    const auto* scene = c.drawable ? std::get_if<Scene>(&*c.drawable) : nullptr;
-    const auto other = with_matrices(c);
-    scenes += scene != nullptr;
-    if (!other) continue;
-    ++cases;
-    ASSERT_NE(scene, nullptr);
-    EXPECT_FALSE(scene->matrices);
-    const CameraMatrices m = std::get<Scene>(*other->drawable).matrices.value();
-    EXPECT_EQ(m.projection, std::get<Scene>(*with_matrices(c)->drawable).matrices->projection);
-    drawn += Frontend().run(*other->drawable, other->frontend).size();
-  }
-  EXPECT_GT(cases, scenes / 4);
-  EXPECT_GT(drawn, 10 * cases);
 }
 
 Plan plan_of(std::uint64_t seed, std::uint64_t cases) {
@@ -199,33 +192,23 @@ using WritesBehindTheLastRow = testing::Spoiled<[](FrameView frame, auto...) {
 }>;
 
 // Wrong in every frame, and used as the reference: only the oracle can find it.
-class WrongReference : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
-                    const Execution& execution) override {
-    std::vector<ScreenTriangle> moved(triangles.begin(), triangles.end());
-    for (ScreenTriangle& t : moved)
-      for (std::int32_t& x : t.x_q15) x = std::max(x - 128, -contract::kGuard_q15);
-    right_->draw(moved, part.frame, testing::pass_of(part), execution);
-  }
-  std::unique_ptr<Backend> right_ = backends()[0].make();
-};
+using WrongReference =
+    testing::DrawnBy<[](Backend& right, auto triangles, const FramePart& part, const Execution& execution) {
+      std::vector<ScreenTriangle> moved(triangles.begin(), triangles.end());
+      for (ScreenTriangle& t : moved)
+        for (std::int32_t& x : t.x_q15) x = std::max(x - 128, -contract::kGuard_q15);
+      right.draw(moved, part.frame, testing::pass_of(part), execution);
+    }>;
 
-class Throws : public Backend {
-  void draw_checked(std::span<const ScreenTriangle>, const FramePart&, const Execution&) override {
-    throw std::length_error("too much");
-  }
-};
+using Throws = testing::DrawnBy<[](const auto&...) { throw std::length_error("too much"); }>;
 
 // Wrong only if it draws over what the frame holds: it clears.
-class AlwaysClears : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
-                    const Execution& execution) override {
-    RenderPass pass = testing::pass_of(part);
-    pass.clear = true;
-    right_->draw(triangles, part.frame, pass, execution);
-  }
-  std::unique_ptr<Backend> right_ = backends()[0].make();
-};
+using AlwaysClears =
+    testing::DrawnBy<[](Backend& right, auto triangles, const FramePart& part, const Execution& execution) {
+      RenderPass pass = testing::pass_of(part);
+      pass.clear = true;
+      right.draw(triangles, part.frame, pass, execution);
+    }>;
 
 // The .tri file that a finding names; empty if it names none.
 std::string file_of(const std::string& finding) {

@@ -24,13 +24,10 @@ using OneBitOff =
     testing::Spoiled<[](FrameView frame, auto...) { frame.depth[kWrongY * frame.stride + kWrongX] ^= 1; }>;
 
 // Leaves the frame unchanged if there are no triangles.
-class ForgetsBackground : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
-                    const Execution& execution) override {
-    if (!triangles.empty()) right_->draw(triangles, part.frame, testing::pass_of(part), execution);
-  }
-  std::unique_ptr<Backend> right_ = backends()[0].make();
-};
+using ForgetsBackground =
+    testing::DrawnBy<[](Backend& right, auto triangles, const FramePart& part, const Execution& execution) {
+      if (!triangles.empty()) right.draw(triangles, part.frame, testing::pass_of(part), execution);
+    }>;
 
 // Wrong only with three threads and id payloads.
 using WrongOnThreads =

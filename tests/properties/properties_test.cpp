@@ -79,23 +79,6 @@ TEST_P(Properties, RotatingOrReversingTheVertexOrderChangesNothing) {
   });
 }
 
-TEST_P(Properties, TrianglesWithoutAreaChangeNothing) {
-  for_each_list([&](const Triangles& triangles, int width, int height) {
-    Triangles without = triangles, more;
-    std::erase_if(without, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
-    for (const ScreenTriangle& t : triangles) {
-      more.push_back(t);
-      for (const auto& [a, b, c] : {std::array{0, 0, 1}, {1, 2, 1}, {2, 2, 2}})
-        more.push_back({{t.x_q15[a], t.x_q15[b], t.x_q15[c]},
-                        {t.y_q15[a], t.y_q15[b], t.y_q15[c]},
-                        {t.z[a], t.z[b], t.z[c]},
-                        ~t.payload});
-    }
-    expect_same_pictures(triangles, without, width, height);
-    expect_same_pictures(triangles, more, width, height);
-  });
-}
-
 struct Move {
   int x, y;  // px, not negative
 };
