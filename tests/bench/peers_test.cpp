@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
-#include <map>
 #include <stdexcept>
 
 #include "bench/workloads/peers.h"

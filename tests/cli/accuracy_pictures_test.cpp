@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "cli/accuracy/accuracy.h"
 #include "edgewise/image.h"

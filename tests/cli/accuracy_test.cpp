@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "cli/accuracy/accuracy.h"
 #include "edgewise/tri_file.h"

@@ -5,10 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/tri_file.h"
 #include "temp_dir.h"

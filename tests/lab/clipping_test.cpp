@@ -9,7 +9,6 @@
 #include <map>
 
 #include "lab/cases/backend_comparison.h"
-#include "lab/coverage/score.h"
 #include "lab/lab_support.h"
 #include "lab/portable/portable.h"
 #include "lab/truth/truth.h"

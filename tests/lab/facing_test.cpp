@@ -16,9 +16,6 @@ namespace {
 const FacingMethod& method(std::string_view name) {
   return method_named(facing_methods(), name);
 }
-FacingScene make_case(std::string_view name) {
-  return make_case_named(facing_cases(), name);
-}
 FacingScore judge(std::string_view name, const FacingScene& scene) {
   return score(method(name), scene, facing_facts(scene)).source;
 }

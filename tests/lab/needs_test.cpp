@@ -14,7 +14,6 @@
 #include "lab/stage_methods.h"
 #include "lab/view_space.h"
 #include "lab/visibility/depth_buffer.h"
-#include "message_of.h"
 #include "support.h"
 
 namespace edgewise::lab {

@@ -9,7 +9,6 @@
 
 #include "core/random.h"
 #include "core/trigonometry.h"
-#include "edgewise/builtin.h"
 #include "frontend/view.h"
 #include "lab/lab_support.h"
 

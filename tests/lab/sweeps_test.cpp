@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -10,9 +9,7 @@
 #include <vector>
 
 #include "cli/stability/report.h"
-#include "edgewise/contract.h"
 #include "lab/sweeps/sweeps.h"
-#include "message_of.h"
 
 namespace edgewise::lab {
 namespace {

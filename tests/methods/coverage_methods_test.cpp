@@ -12,7 +12,6 @@ namespace edgewise::lab {
 namespace {
 
 using testing::adversarial;
-using testing::against_floats;
 using testing::drawn_by;
 using testing::find_coverage_method;
 using testing::hard_floats;
