@@ -98,16 +98,9 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVerticesOrTheirNormal) {
       quads_differing += scene.faces[i].count == 4;
       EXPECT_GT(scene.faces[i].count, 3u);
     }
-    if (shape == Shape::regular) {
-      EXPECT_EQ(differing, 0u);
-    } else {
-      EXPECT_GT(differing, 30u);
-      EXPECT_GT(quads_differing, 0u);
-    }
-    if (shape == Shape::bent)
-      EXPECT_GT(normals_differing, 30u);
-    else
-      EXPECT_LE(normals_differing, 2u);
+    EXPECT_EQ(differing > 0, shape != Shape::regular);
+    EXPECT_EQ(quads_differing > 0, shape != Shape::regular);
+    EXPECT_EQ(normals_differing > 2, shape == Shape::bent);
     for (const auto& m : facing_methods()) {
       const auto s = score(m, scene, facts);
       EXPECT_EQ(s.broken, 0u) << m.info.name;

@@ -22,15 +22,14 @@ SweepResult swept(std::string_view name, int threads = 2) {
 struct Found {
   Found(const SweepResult& result, std::string_view method) : result_(result) {
     const auto methods = swept_methods(result.sweep->family);
-    const auto at =
-        std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == method; });
+    const auto at = std::ranges::find_if(methods, [&](const auto& m) { return m.name == method; });
     if (at == methods.end()) throw std::invalid_argument("no method " + std::string(method));
     index_ = static_cast<std::size_t>(at - methods.begin());
   }
   std::optional<double> start() const { return result_.starts_to_fail(index_); }
   const Tally& at(double position) const {
     const auto& positions = result_.sweep->positions;
-    const auto found = std::find(positions.begin(), positions.end(), position);
+    const auto found = std::ranges::find(positions, position);
     if (found == positions.end()) throw std::invalid_argument("no position " + std::to_string(position));
     return result_.at[static_cast<std::size_t>(found - positions.begin())].methods[index_];
   }

@@ -63,15 +63,6 @@ TEST(FloatTruth, AgreesWithTheSnappedTruthOnTheGrid) {
   }
 }
 
-TEST(FloatTruth, FindsTheFacingOfTrianglesThatDoublesCannotJudge) {
-  const auto facing = [](float x, float y) {
-    return FloatTruth({{0.0f, 3000.0f, x}, {0.0f, 3000.0f, y}, {0, 0, 0}}).facing();
-  };
-  EXPECT_EQ(facing(1e-40f, 1e-40f), 0);
-  EXPECT_EQ(facing(1e-40f, 2e-40f), 1);
-  EXPECT_EQ(facing(2e-40f, 1e-40f), -1);
-}
-
 FloatTruth truth_of(const FloatTriangle& t) {
   return FloatTruth(t.at);
 }

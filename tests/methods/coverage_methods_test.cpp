@@ -51,9 +51,6 @@ TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReach) {
         expect_reach(hard_floats(family, 60, window, seed), window,
                      std::string(family) + " in " + std::to_string(window.width) + "x" +
                          std::to_string(window.height));
-}
-
-TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReachOnTheGrid) {
   for (const auto family : testing::kFamilies)
     expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
 }
