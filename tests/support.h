@@ -114,16 +114,10 @@ inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, 
                 << ", payload " << expected.payload_row(y)[x] << " and " << actual.payload_row(y)[x];
 }
 
-inline std::vector<std::string_view> names_of(std::span<const BackendInfo> infos) {
-  std::vector<std::string_view> names;
-  for (const auto& b : infos) names.push_back(b.name);
-  return names;
-}
-
 // The backends and wireframe().
 inline std::vector<std::string_view> all_drawers() {
-  std::vector<std::string_view> names = names_of(backends());
-  names.push_back(wireframe().name);
+  std::vector<std::string_view> names = {wireframe().name};
+  for (const BackendInfo& backend : backends()) names.push_back(backend.name);
   return names;
 }
 inline const BackendInfo& find_drawer(std::string_view name) {

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "lab/cases/backend_comparison.h"
-#include "lab/lab_support.h"
 #include "lab/portable/portable.h"
+#include "lab/stage_methods.h"
 #include "lab/truth/truth.h"
 #include "lab/view_space.h"
 #include "message_of.h"
@@ -18,11 +18,9 @@
 namespace edgewise::lab {
 namespace {
 
-const ClippingMethod& method(std::string_view name) {
-  return method_named(clipping_methods(), name);
-}
+constexpr auto& method = find_clipping_method;
 ClippingScene make_case(std::string_view name) {
-  return make_case_named(clipping_cases(), name);
+  return std::ranges::find(clipping_cases(), name, &ClippingCase::name)->make();
 }
 ClippingScore judge(std::string_view name, const ClippingScene& scene) {
   return score(method(name), scene, clipping_truth(scene));

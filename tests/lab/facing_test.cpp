@@ -7,15 +7,13 @@
 #include <map>
 
 #include "core/random.h"
-#include "lab/lab_support.h"
+#include "lab/stage_methods.h"
 #include "lab/view_space.h"
 
 namespace edgewise::lab {
 namespace {
 
-const FacingMethod& method(std::string_view name) {
-  return method_named(facing_methods(), name);
-}
+constexpr auto& method = find_facing_method;
 FacingScore judge(std::string_view name, const FacingScene& scene) {
   return score(method(name), scene, facing_facts(scene)).source;
 }

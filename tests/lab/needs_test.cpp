@@ -44,7 +44,8 @@ Needs studied(const Drawable& drawable, const NeedsOptions& options = {}, Cull c
 // The entry whose name starts so.
 template <typename Entry>
 Entry named(const std::vector<Entry>& list, std::string_view start) {
-  return *std::ranges::find_if(list, [&](const Entry& entry) { return entry.name.starts_with(start); });
+  const auto found = std::ranges::find_if(list, [&](const Entry& e) { return e.name.starts_with(start); });
+  return list.at(static_cast<std::size_t>(found - list.begin()));
 }
 
 Curve curve_of(const Needs& needs, Stage stage) {

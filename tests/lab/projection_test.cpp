@@ -10,7 +10,6 @@
 #include "core/random.h"
 #include "core/trigonometry.h"
 #include "frontend/view.h"
-#include "lab/lab_support.h"
 
 namespace edgewise::lab {
 namespace {
@@ -230,7 +229,8 @@ TEST(ExactProjection, RoundsTheNearestPositionsToTheGrid) {
 }
 
 ProjectionScore score(std::string_view method, const ProjectionJudge& judge) {
-  return judge.score(method_named(projection_methods(), method));
+  const auto name_of = [](const ProjectionMethod& m) { return m.info.name; };
+  return judge.score(*std::ranges::find(projection_methods(), method, name_of));
 }
 
 TEST(Projection, SaysWhichPartOfTheErrorsComesFromWhere) {
