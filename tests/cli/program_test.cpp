@@ -332,8 +332,6 @@ TEST(Program, NeedsFollowsMotionAndOrbit) {
   const auto orbit = judged("--orbit 5");
   EXPECT_EQ(orbit.at("frames"), 5);
   EXPECT_EQ(orbit.at("minima").empty(), orbit.contains("closest"));
-  for (const auto& question : orbit.at("edges"))
-    EXPECT_TRUE(question.at("proven") == true || question.at("trials").at("count") > 0) << question;
 }
 
 TEST_F(ProgramRenders, AnEmptyPictureAndSaysWhy) {

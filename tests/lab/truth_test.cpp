@@ -96,9 +96,6 @@ TEST(CoveredRuns, HoldThePixelsThatTheTruthsCover) {
     for (const auto family : testing::kFamilies)
       expect_runs_of(adversarial(family, 120, window.x1(), window.y1(), 10), window, std::string(family));
   }
-}
-
-TEST(CoveredRuns, HoldThePixelsOfManyTrianglesInOrder) {
   expect_runs_of(adversarial("cloud", 5'000, 60, 60, 1), {60, 60}, "more than one chunk");
 }
 

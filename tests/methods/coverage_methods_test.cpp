@@ -30,6 +30,10 @@ std::vector<std::string_view> names_of(std::span<const CoverageMethod> methods) 
   return names;
 }
 
+std::string text_of(const auto& size) {
+  return " in " + std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
 class EveryCoverageMethod : public ::testing::TestWithParam<std::string_view> {
  protected:
   const CoverageMethod& method_ = find_coverage_method(GetParam());
@@ -48,9 +52,7 @@ TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReach) {
   for (const Window window : {Window{120, 90}, {64, 48, 4020, 4030}, {4096, 3, 0, 50}, {3, 4096, 4000, 0}})
     for (const auto family : testing::kFloatFamilies)
       for (const std::uint64_t seed : {1u, 2u})
-        expect_reach(hard_floats(family, 60, window, seed), window,
-                     std::string(family) + " in " + std::to_string(window.width) + "x" +
-                         std::to_string(window.height));
+        expect_reach(hard_floats(family, 60, window, seed), window, std::string(family) + text_of(window));
   for (const auto family : testing::kFamilies)
     expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
 }
@@ -169,10 +171,6 @@ class EveryCoverageForm : public EveryCoverageMethod {
     }
   }
 };
-
-std::string text_of(Size size) {
-  return " in " + std::to_string(size.width) + "x" + std::to_string(size.height);
-}
 
 // Widths below, at and above a vector's, and images narrower than one.
 constexpr Size kSizes[] = {{1, 1}, {5, 40}, {16, 16}, {17, 9}, {90, 70}, {301, 200}};

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,7 +21,6 @@ struct Lattice {
 
   std::uint64_t points() const { return coordinates.size() * coordinates.size(); }
   std::uint64_t triangles() const { return points() * points() * points(); }  // each vertex is any point
-  friend std::ostream& operator<<(std::ostream& out, const Lattice& lattice) { return out << lattice.name; }
 };
 
 Lattice steps(std::string name, int px, int steps_per_px) {

@@ -116,10 +116,8 @@ TEST(CpuModel, DistinguishesCpusOfTheSameName) {
     return cpu_model(path);
   };
   EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 25\nmodel\t\t: 17\n"), "AMD EPYC (family 25, model 17)");
-  EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 26\nmodel\t\t: 2\n"), "AMD EPYC (family 26, model 2)");
   EXPECT_EQ(model_of("Intel(R) Xeon(R) Processor", "cpu family\t: 6\nmodel\t\t: 207\n"),
             "Intel Xeon (family 6, model 207)");
-  EXPECT_EQ(model_of("Some core", ""), "Some core");
   EXPECT_EQ(model_of("", "CPU implementer\t: 0x41\nCPU part\t: 0xd0c\n"),
             "ARM (implementer 0x41, part 0xd0c)");
   EXPECT_EQ(cpu_model((folder.path() / "missing").string()), "unknown");
@@ -167,7 +165,6 @@ TEST(Printable, CutsBetweenCharacters) {
 TEST(JsonText, AcceptsAnyBytes) {
   const nlohmann::json json{{"name", "a\xff"}};
   EXPECT_EQ(nlohmann::json::parse(json_text(json)).at("name"), "a\xef\xbf\xbd");
-  EXPECT_EQ(json_text(nlohmann::json{{"a", 1}}, 2), "{\n  \"a\": 1\n}");
 }
 
 // ---- Uncaught exceptions
