@@ -251,7 +251,7 @@ class Check {
           "build differs from the one that wrote " +
           path_ + ".\n  To find the pixel" + (frame.file == nullptr ? "" : " or the file's byte") +
           ", dump the frame here and where the hash is right:\n    edgewise_hashes " + path_ + " --dump '" +
-          name + "'" + (frame.redraw.empty() ? "" : "\n  This draws it, too: " + frame.redraw);
+          name + "'";
     std::printf("%s\n", why.c_str());
     return hash;
   }
