@@ -2,7 +2,6 @@
 import pickle
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -19,17 +18,6 @@ SCISSOR = (11, 7, 50, 31)
 def part(plane, rectangle=SCISSOR):
     x, y, width, height = rectangle
     return plane[y:y + height, x:x + width]
-
-
-@pytest.mark.parametrize("ids", [False, True])
-@pytest.mark.parametrize("camera", range(len(CAMERAS)))
-def test_backends_and_threads_draw_the_same(camera, ids):
-    drawn = scene()
-    frames = [drawn.draw(CAMERAS[camera], SIZE, ids=ids, backend=backend, threads=threads)
-              for backend in (*edgewise.BACKENDS, "tiles+spans") for threads in (1, 3)]
-    assert (frames[0].depth < edgewise.DEPTH_CLEAR).any()
-    assert all(same(frames[0], frame) for frame in frames)
-    assert len({edgewise.pixel_hash(frame) for frame in frames}) == 1
 
 
 @pytest.mark.parametrize("draw", [lambda **options: scene().draw(CAMERA, SIZE, **options), lambda **options: stream().draw(**options)])
@@ -207,9 +195,11 @@ def test_a_scene_copies_its_input():
     assert same(drawn.draw(CAMERA, SIZE), before)
 
 
-def test_instances_and_vertices_move_and_lights_turn():
-    positions, indices, colours = triangles()
-    moved, placed = edgewise.Scene(positions, indices, colours=colours), edgewise.Scene()
+@pytest.mark.parametrize("count", [60, 1 << 16])  # many have clusters, whose boxes move
+def test_instances_and_vertices_move_and_lights_turn(count):
+    positions, indices, colours = triangles(count)
+    moved, placed = edgewise.Scene(positions + np.float32([0, 0, 9]), indices, colours=colours), edgewise.Scene()
+    moved.set_positions(0, positions)  # before the camera
     placed.add_instance(placed.add_mesh(positions, indices, colours=colours), MOVED)
     assert not same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
     moved.set_instance(0, MOVED)
@@ -217,12 +207,6 @@ def test_instances_and_vertices_move_and_lights_turn():
     moved.add_instance(0)
     assert not same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
     moved.remove_instance(1)
-    assert same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
-    for drawn in (moved, placed):
-        drawn.set_positions(0, positions[::-1])
-    expected = edgewise.Scene(positions[::-1], indices, colours=colours)
-    expected.set_instance(0, MOVED)
-    assert same(moved.draw(CAMERA, SIZE), expected.draw(CAMERA, SIZE)) and same(placed.draw(CAMERA, SIZE), moved.draw(CAMERA, SIZE))
     moved.set_light((-1, 0.25, 0.5))
     assert not np.array_equal(moved.draw(CAMERA, SIZE).payload, placed.draw(CAMERA, SIZE).payload)
     assert same(moved.draw(CAMERA, SIZE, shade=False), placed.draw(CAMERA, SIZE, shade=False))
@@ -277,15 +261,3 @@ def test_draws_release_the_gil():
         turns += 1
         time.sleep(0.001)
     assert turns > 10  # held, it is one or two
-
-
-def test_threads_may_share_a_scene():
-    drawn = scene()
-    expected = [drawn.draw(camera, SIZE) for camera in CAMERAS]
-
-    def work(i):
-        frames = [drawn.draw(CAMERAS[i % 3], SIZE, threads=2) for _ in range(20)]
-        drawn.add_mesh(*triangles()[:2])
-        return all(same(frame, expected[i % 3]) for frame in frames)
-    with ThreadPoolExecutor(6) as pool:
-        assert all(pool.map(work, range(6)))

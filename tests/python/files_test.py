@@ -131,31 +131,13 @@ def test_a_pipe_is_read_when_its_descriptor_is_named():
         os.close(pipe)
 
 
-def handlers():
-    return [line for line in open("/proc/self/status", encoding="ascii") if line.startswith(("SigBlk", "SigIgn", "SigCgt"))]
-
-
-def test_writing_leaves_the_process_as_it_is(tmp_path):
-    before, files = handlers(), os.listdir("/proc/self/fd")
-    edgewise.write_image(tmp_path / "a.png", np.zeros((2, 2), np.uint32))
-    edgewise.write_pfm(tmp_path / "a.pfm", np.zeros((2, 2)))
-    stream().write_tri(tmp_path / "a.tri")
-    with pytest.raises(OSError):
-        edgewise.write_pfm(tmp_path, np.zeros((2, 2)))
-    assert handlers() == before and os.listdir("/proc/self/fd") == files
-
-
 def test_16_bit_grey_comes_back(tmp_path):
-    grey = np.arange(65536, dtype=np.uint16).reshape(256, 256)
-    path = tmp_path / "grey.png"
+    grey, path = np.arange(65536, dtype=np.uint16).reshape(256, 256), tmp_path / "grey.png"
     edgewise.write_image(path, grey)
     back = edgewise.read_image(path)
     assert back.dtype == np.uint16 and np.array_equal(back, grey)
     difference = edgewise.diff(path, grey + np.uint16(1))
     assert (difference.differing, difference.largest, difference.scale) == (65536, 65535, 65535)  # 65535 + 1 is 0
-    assert edgewise.diff(np.full((1, 1), 255, np.uint16), np.full((1, 1), 256, np.uint16)).largest == 1
-    with pytest.raises(OSError, match="png"):
-        edgewise.write_image(tmp_path / "grey.ppm", grey)
 
 
 @pytest.mark.parametrize("dtype", "?bBhilqLQefdFOSUm")
@@ -170,25 +152,11 @@ def test_other_types_are_no_pictures(tmp_path, dtype):
 
 
 def test_floats_of_three_channels(tmp_path):
-    path, other = tmp_path / "a.pfm", tmp_path / "b.pfm"
+    path = tmp_path / "a.pfm"
     values = np.arange(12, dtype=np.float32).reshape(2, 2, 3) / 8
     path.write_bytes(b"PF\n2 2\n-1.0\n" + values[::-1].astype("<f4").tobytes())
     assert np.array_equal(edgewise.read_pfm(path), values)
-    assert edgewise.read_image(path)[0, 0] == 0xFF402000 and edgewise.read_image(path)[1, 1] == 0xFFFFFFFF
-    other.write_bytes(path.read_bytes()[:-4] + b"\0\0\xc0\x7f")  # NaN
-    assert edgewise.diff(path, values).differing == 0 and edgewise.diff(path, other).largest == np.inf
-    assert json.loads(program("diff", path, other, "--json", status=1))["infinite"] is True
-
-
-def test_alpha_is_compared_apart(tmp_path):
-    a = np.zeros((2, 2, 4), np.uint8)
-    b = a.copy()
-    b[0, 1, 3] = 7
-    assert edgewise.diff(a, b).differing == 0 and edgewise.diff(a, b).differing_in_alpha == 1
-    assert edgewise.diff(a, b, [[0, 1], [0, 0]]).differing_in_alpha == 0
-    path = tmp_path / "a.png"
-    edgewise.write_image(path, a)  # without alpha
-    assert edgewise.diff(path, a).differing_in_alpha == 4
+    assert edgewise.diff(path, values).differing == 0 and edgewise.diff(path, np.full_like(values, np.nan)).largest == np.inf
 
 
 def test_a_png_without_its_end_is_a_warning(tmp_path):
@@ -239,6 +207,7 @@ def test_diff_says_what_the_program_says(tmp_path):
     for picture in (colours, colours[..., None].view(np.uint8), colours[..., None].view(np.uint8)[..., :3]):
         assert edgewise.diff(a, b, picture)[:-2] == edgewise.diff(a, b, mask)[:-2]
     assert edgewise.diff(a, a).first is None and edgewise.diff(a, a).differing == 0
+    assert edgewise.diff(a, a ^ np.uint32(0x07000000)).differing_in_alpha == WIDTH * HEIGHT
 
 
 def test_depth_maps_come_back_and_are_compared(tmp_path):
