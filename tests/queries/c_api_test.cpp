@@ -121,7 +121,7 @@ TEST(CInterface, DrawsTheSamePictures) {
     edgewise_options options = edgewise_default_options();
     options.cull = trial % 4;
     options.ids = trial & 4, options.unlit = trial & 8, options.keep = trial & 16;
-    options.subpixel_bits = 4 + trial % 12;
+    options.subpixel_bits = 4 + trial % 12, options.first_id = static_cast<std::uint32_t>(trial);
     options.threads = 1 + trial % 3, options.background = 0xFF000001u + static_cast<std::uint32_t>(trial);
     const int scissor[] = {5, 9, 40, 21};
     if ((trial & 32) != 0) std::copy_n(scissor, 4, options.scissor);
@@ -129,7 +129,7 @@ TEST(CInterface, DrawsTheSamePictures) {
     FrontendOptions o{
         .width = kWidth, .height = kHeight, .cull = kCull[trial % 4], .shade = options.unlit == 0};
     o.payload = options.ids != 0 ? Payload::id : Payload::colour;
-    o.subpixel_bits = options.subpixel_bits;
+    o.subpixel_bits = options.subpixel_bits, o.first_id = options.first_id;
     RenderPass pass{options.background, options.keep == 0};
     if ((trial & 32) != 0) pass.scissor = {5, 9, 40, 21};
     Planes actual, expected;
@@ -277,34 +277,6 @@ TEST(CInterface, TellsWhatIsSeen) {
               visible(Bounds{glm::make_vec3(low), glm::make_vec3(high)}, both.scene, frame.view()));
   }
   EXPECT_EQ(edgewise_depth01(contract::kDepthHead + 12345), contract::depth01(contract::kDepthHead + 12345));
-}
-
-TEST(CInterface, DrawsThatAddUpEqualOneIdsIncluded) {
-  Both both, rest;
-  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
-  rest.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
-  Scene expected_scene = both.scene;
-  for (std::size_t i = 0; i < 2; ++i) {
-    glm::dmat4 place = i == 0 ? glm::dmat4(1.0) : kMatrix;
-    place[3].z += 0.4;
-    EXPECT_EQ(edgewise_set_instance(rest.c, i, glm::value_ptr(place)), EDGEWISE_OK);
-    expected_scene.instances.push_back({.matrix = place});
-  }
-  const Renderer renderer("tiled");
-  edgewise_options options = edgewise_default_options();
-  options.ids = 1;
-  Planes actual, expected;
-  EXPECT_EQ(edgewise_draw(renderer.c, both.c, &options, actual.c()), EDGEWISE_OK);
-  options.keep = 1, options.first_id = 6;
-  EXPECT_EQ(edgewise_draw(renderer.c, rest.c, &options, actual.c()), EDGEWISE_OK);
-  Frontend frontend;
-  const FrontendOptions o{.width = kWidth, .height = kHeight, .cull = Cull::none, .payload = Payload::id};
-  draw(expected_scene, frontend, o, *find_backend("naive").make(), expected.view(), {0xFF000000});
-  EXPECT_EQ(actual, expected);
-  EXPECT_GE(visible_triangles(actual.view()).back(), 6u);
-  options.first_id = 1u << 30;
-  EXPECT_EQ(edgewise_draw(renderer.c, rest.c, &options, actual.c()), EDGEWISE_INVALID_ARGUMENT);
-  EXPECT_EQ(actual, expected);
 }
 
 TEST(CInterface, ChangesAScene) {
