@@ -24,10 +24,6 @@ namespace {
 // Pixel coordinates and depth, both multiplied by w, and w.
 using Homogeneous = glm::dvec4;
 
-Homogeneous homogeneous(glm::vec3 v) {
-  return {glm::dvec3(v), 1};
-}
-
 // The visible part of a triangle or convex polygon, in double: clipped by the near and far planes and divided
 // by w, but neither cut by the guard band nor snapped.
 //
@@ -187,32 +183,6 @@ TEST_P(ConformanceExactClips, OneOrTwoVerticesBeyondAPlaneLeaveTheExactPolygon) 
 
 INSTANTIATE_TEST_SUITE_P(Planes, ConformanceExactClips, ::testing::ValuesIn(kPlanes),
                          [](const auto& p) { return std::string(p.param.name); });
-
-int outside_of(const Plane& plane, const Triangle& t) {
-  return static_cast<int>(
-      std::count_if(t.begin(), t.end(), [&](glm::vec3 v) { return plane.distance(v) < 0; }));
-}
-
-TEST_F(ConformanceClips, VerticesUpTo100000PixelsAwayAreClippedCorrectly) {
-  Random random(19);
-  int with_outside[6][4] = {}, with_planes[7] = {};
-  for (int trial = 0; trial < 1500 && !HasFailure(); ++trial) {
-    const Triangle t = anywhere(random);
-    int crossed = 0;
-    for (std::size_t plane = 0; plane < 6; ++plane) {
-      const int outside = outside_of(kPlanes[plane], t);
-      ++with_outside[plane][outside];
-      crossed += outside > 0;
-    }
-    ++with_planes[crossed];
-    const Outline outline({homogeneous(t[0]), homogeneous(t[1]), homogeneous(t[2])});
-    expect_outline(stream_of(t), {}, outline, "trial " + std::to_string(trial));
-  }
-  for (std::size_t plane = 0; plane < 6; ++plane)
-    for (const int outside : {1, 2, 3}) EXPECT_GT(with_outside[plane][outside], 10) << kPlanes[plane].name;
-  for (int planes = 1; planes <= 6; ++planes) EXPECT_GT(with_planes[planes], 3) << planes;
-  expect_most_decided();
-}
 
 // ---- Through a camera
 
