@@ -60,7 +60,7 @@ def test_a_mesh_of_doubles_far_from_0_is_drawn_as_one_near_0():
         camera = edgewise.Camera(edgewise.look_at(at + [0.01, 0.01, 0.04], at), edgewise.perspective(0.8, ASPECT, 1e-3, 1))
         return drawn.draw(camera, SIZE, ids=True).payload
     expected = shown((far - place).astype(np.float32), np.zeros(3))
-    assert (expected != edgewise.BACKGROUND_ID).sum() > 1000
+    assert (expected != edgewise.BACKGROUND_ID).sum() > 700
     for ids in (shown(far, place), shown(far[::-1], place, far)):
         assert (ids != expected).mean() < 0.002  # by the rounding of the camera and the points
     assert (shown(far.astype(np.float32), place) != expected).mean() > 0.1

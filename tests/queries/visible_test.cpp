@@ -152,9 +152,10 @@ TEST(Visible, BoxIsHiddenByAWallOnlyIfItIsBehindAndProjected) {
            {{{-0.1, kNan, -5}, {0.1, 0.1, -4}}, true},
            {{{-1e200, -1e200, -1e300}, {1e200, 1e200, -4}}, true}})
     EXPECT_EQ(visible(box, scene, frame), seen) << box.low.x << ' ' << box.low.z;
-  EXPECT_THROW(visible({}, scene, {nullptr, nullptr, 200, 200, 200}), std::invalid_argument);
+  const Bounds before{{0, 0, -2}, {0.1, 0.1, -1}};
+  EXPECT_THROW(visible(before, scene, {nullptr, nullptr, 200, 200, 200}), std::invalid_argument);
   scene.camera.near_z = 0;
-  EXPECT_THROW(visible({}, scene, frame), std::invalid_argument);
+  EXPECT_THROW(visible(before, scene, frame), std::invalid_argument);
 }
 
 // The faces of a box.
