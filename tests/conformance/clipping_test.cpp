@@ -14,7 +14,6 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
-#include "conformance/streams.h"
 #include "core/random.h"
 #include "lab/clipping/clipping.h"
 

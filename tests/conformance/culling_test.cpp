@@ -3,7 +3,6 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
-#include "conformance/streams.h"
 #include "core/random.h"
 
 namespace edgewise::conformance {

@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
-#include "conformance/streams.h"
 
 namespace edgewise::conformance {
 namespace {
