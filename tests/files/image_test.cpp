@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
-#include <limits>
 #include <locale>
 #include <span>
 #include <sstream>
 #include <tuple>
 
 #include "core/little_endian.h"
-#include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/scene.h"
@@ -209,24 +207,6 @@ TEST(Pfm, LinesMayEndInCrLf) {
   const auto expected = depths_after("Pf\n2 1\n-1.0\n");
   for (const char* header : {"Pf\r\n2 1\r\n-1.0\r\n", "Pf\r2 1\r-1.0\r", "Pf\r\n2 1\n-1.0\n"})
     EXPECT_EQ(depths_after(header), expected) << header;
-}
-
-TEST(Frame, DepthBecomesZeroToOneWithoutThePadding) {
-  Framebuffer frame(3, 2);
-  const std::uint32_t units[2][3] = {
-      {contract::kDepthHead, contract::kDepthHead + contract::kDepthRange, contract::kDepthClear},
-      {contract::kDepthHead - 60, contract::kDepthHead + contract::kDepthRange + 60,
-       contract::kDepthHead + contract::kDepthRange / 2}};
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 3; ++x) {
-      frame.view().depth[y * frame.stride() + x] = units[y][x];
-      frame.view().payload[y * frame.stride() + x] = static_cast<std::uint32_t>(10 * y + x);
-    }
-  EXPECT_EQ(to_depth_map(frame).depth01, (std::vector<float>{0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 0.5f}));
-  EXPECT_EQ(to_image(frame).pixels, (Colours{0, 1, 2, 10, 11, 12}));
-  FrameView depth_only = frame.view();
-  depth_only.payload = nullptr;
-  EXPECT_THROW(to_image(depth_only), std::invalid_argument);
 }
 
 // ---- Differences
