@@ -123,7 +123,7 @@ TEST(Fit, CentresAndScalesTheLongestSideToTwo) {
   EXPECT_NEAR(std::max({high.x - low.x, high.y - low.y, high.z - low.z}), 2.0f, 1e-4f);
 }
 
-TEST(Fit, RefusesOverflowWithoutChangingTheScene) {
+TEST(Fit, RefusesOverflowWithoutChangingTheSceneAndMissingMeshes) {
   const auto scene_of_size = [](float size) {
     Scene scene;
     scene.meshes.push_back({{{0, 0, 0}, {size, 0, 0}, {0, size, 0}}, {{0, 1, 2}}, {0}});
@@ -140,14 +140,9 @@ TEST(Fit, RefusesOverflowWithoutChangingTheScene) {
   too_large.meshes[0].positions[0].x = -3e38f;
   EXPECT_THROW(fit(far), std::invalid_argument);
   EXPECT_THROW(fit(too_large), std::invalid_argument);
-}
-
-TEST(Fit, RefusesAnInstanceOfAMissingMesh) {
-  Scene scene;
-  scene.instances.push_back({.mesh = 1});
-  scene.meshes.resize(1);
-  EXPECT_THROW(fit(scene), std::out_of_range);
-  EXPECT_THROW(frame_camera(scene), std::out_of_range);
+  far.instances.push_back({.mesh = 1});
+  EXPECT_THROW(fit(far), std::out_of_range);
+  EXPECT_THROW(frame_camera(far), std::out_of_range);
 }
 
 }  // namespace
