@@ -11,8 +11,8 @@ int machine_cores();  // online
 // cores of the CPU quotas of its cgroups.
 int usable_cores();
 
-// The least CPU quota, in cores, of the cgroup (version 2) that /proc/self/cgroup names and of its parents, by
-// their files cpu.max below `root`. Infinite if there is none.
+// The least CPU quota, in cores, of the cgroup (version 2) that /proc/self/cgroup names and of its parents,
+// by their files cpu.max below `root`. Infinite if there is none.
 double cpu_quota(const std::filesystem::path& membership = "/proc/self/cgroup",
                  const std::filesystem::path& root = "/sys/fs/cgroup");
 
