@@ -90,13 +90,6 @@ TEST(CameraMatrices, ShowAMarkerAlikeInEveryPerspectiveConvention) {
   expect_marker({glm::dmat4(1.0), p * kZBack}, kPerspective, "one product", 600);
 }
 
-TEST(CameraMatrices, OfACameraShowWhatItShows) {
-  Camera camera;
-  camera.position = kEye;
-  camera.fov_y = static_cast<float>(kFov), camera.near_z = kNear, camera.far_z = kFar;
-  expect_marker(matrices_of(camera, kAspect), kPerspective, "camera");
-}
-
 TEST(CameraMatrices, MayHaveNoFarPlane) {
   expect_marker({kZBack, projection_from(kOpenGl, glm::infinitePerspectiveRH(kFov, kAspect, kNear))},
                 kInfinitelyFar, "OpenGL");
