@@ -260,33 +260,30 @@ Fan make_fan(glm::vec3 hub, glm::vec3 u, glm::vec3 v, int spokes, double turn, b
 
 class ConformanceFans : public ConformanceClips {
  protected:
-  void expect_all_once(const Drawable& drawable, const Fan& fan, View view, const std::string& what) {
-    for (const int bits : kBits) {
-      view.subpixel_bits = bits, view.cull = Cull::none;
-      expect_all_once_with_bits(drawable, fan, view, what + ", bits " + std::to_string(bits));
-    }
-  }
-
- private:
-  void expect_all_once_with_bits(const Drawable& drawable, const Fan& fan, View view,
-                                 const std::string& what) {
+  void expect_all_once(const Drawable& drawable, const Fan& fan, View view, const std::string& name) {
     const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-    expect_hits(drawable, view, std::vector<int>(pixels, 1), what);
-    const bool front = drawn(drawable, {view.width, view.height, Cull::back, view.subpixel_bits});
-    EXPECT_NE(front, drawn(drawable, {view.width, view.height, Cull::front, view.subpixel_bits}));
-    view.cull = front ? Cull::back : Cull::front;
-    expect_hits(drawable, view, std::vector<int>(pixels, 1), what + ", the others culled");
-    with_each(what, [&](Pipeline& pipeline) {
-      pipeline.triangles(drawable, view);
-      const FrontendStats& s = pipeline.stats();
-      ASSERT_GT(s.clipped_near, 0u);
-      ASSERT_GT(s.clipped_far, 0u);
-      ASSERT_GT(s.clipped_guard, 0u);
-      ASSERT_EQ(s.triangles, fan.triangles.size());
-    });
-  }
-  bool drawn(const Drawable& drawable, const View& view) {
-    return !pipelines().front().triangles(drawable, view).empty();
+    const std::vector<int> once(pixels, 1);
+    const auto is_drawn = [&](Cull cull) {
+      view.cull = cull;
+      return !pipelines().front().triangles(drawable, view).empty();
+    };
+    for (const int bits : kBits) {
+      const std::string what = name + ", bits " + std::to_string(bits);
+      view.subpixel_bits = bits, view.cull = Cull::none;
+      expect_hits(drawable, view, once, what);
+      const bool front = is_drawn(Cull::back);
+      EXPECT_NE(front, is_drawn(Cull::front));
+      view.cull = front ? Cull::back : Cull::front;
+      expect_hits(drawable, view, once, what + ", the others culled");
+      with_each(what, [&](Pipeline& pipeline) {
+        pipeline.triangles(drawable, view);
+        const FrontendStats& s = pipeline.stats();
+        ASSERT_GT(s.clipped_near, 0u);
+        ASSERT_GT(s.clipped_far, 0u);
+        ASSERT_GT(s.clipped_guard, 0u);
+        ASSERT_EQ(s.triangles, fan.triangles.size());
+      });
+    }
   }
 };
 
