@@ -317,11 +317,10 @@ class NeedsCommand {
     const Shot first = load_first(scene);
     lab::Needs needs({tolerance_px(), options_.displacement, !options_.pictures.empty(), options_.ranges,
                       options_.threads});
-    const TimeLeft left;
     Progress progress;
     const double steps = std::max(options_.frames, options_.orbit);
     double done = 0.0;
-    const auto show = [&] { progress.show(done / steps, left.label(done / steps, first.source.name)); };
+    const auto show = [&] { progress.show(done / steps, first.source.name); };
     show();
     for_each_frame(scene, first, [&](const Shot& shot) {
       needs.add(shot.source.drawable, shot.frontend);

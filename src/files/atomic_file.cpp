@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <locale>
+#include <string>
+#include <string_view>
 
 #include "core/input_file.h"
 
@@ -27,6 +29,20 @@ bool is_descriptor(const fs::path& path) {
          (name.string().starts_with("/proc/") && name.parent_path().filename() == "fd");
 }
 
+// Writes to an open file and closes it. Returns errno of what failed first, opening it included, or 0.
+int write_all(int descriptor, std::string_view bytes) {
+  if (descriptor < 0) return errno;
+  int error = 0;
+  while (error == 0 && !bytes.empty()) {
+    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
+    if (written >= 0)
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    else if (errno != EINTR)
+      error = errno;
+  }
+  return close(descriptor) != 0 && error == 0 ? errno : error;
+}
+
 }  // namespace
 
 fs::path after_links(fs::path path) {
@@ -37,113 +53,57 @@ fs::path after_links(fs::path path) {
   return path;
 }
 
-void FileBuffer::attach(int descriptor) {
-  close();
-  descriptor_ = descriptor;
-  setp(buffer_.data(), buffer_.data() + buffer_.size());
-}
-
-bool FileBuffer::close() {
-  sync();
-  if (descriptor_ >= 0 && ::close(descriptor_) != 0 && error_ == 0) error_ = errno;
-  descriptor_ = -1;
-  return error_ == 0;
-}
-
-FileBuffer::int_type FileBuffer::overflow(int_type c) {
-  if (sync() != 0) return traits_type::eof();
-  return traits_type::eq_int_type(c, traits_type::eof()) ? traits_type::not_eof(c)
-                                                         : sputc(traits_type::to_char_type(c));
-}
-
-int FileBuffer::sync() {
-  for (const char* at = pbase(); at < pptr() && error_ == 0;) {
-    const ssize_t written = write(descriptor_, at, static_cast<std::size_t>(pptr() - at));
-    if (written >= 0)
-      at += written;
-    else if (errno != EINTR)
-      error_ = errno;
-  }
-  setp(pbase(), epptr());
-  return error_ == 0 ? 0 : -1;
-}
-
-AtomicFile::Folder::~Folder() {
-  if (descriptor >= 0) close(descriptor);
-}
-
 AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   stream_.imbue(std::locale::classic());
+  stream_.exceptions(std::ios::badbit);  // of a lack of memory
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (status.type() == fs::file_type::none) throw system_error(path_, error.value(), kUnwritable);
   if (fs::is_directory(status)) throw FileError(path_, "is a directory", EISDIR);
-  const bool exists = fs::exists(status);
-  const fs::path target = after_links(path_);
+  exists_ = fs::exists(status);
+  target_ = after_links(path_);
+  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+  target_ = fs::absolute(target_);  // the current folder may change
   // A rename over /dev/null would replace it, and one over /dev/stdout a file that another process holds
   // open.
-  if (is_descriptor(target) || (exists && !fs::is_regular_file(status))) {
-    const auto descriptor = descriptor_of(target);
-    buffer_.attach(descriptor ? fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
-                              : open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
-    if (buffer_.descriptor() < 0) throw system_error(path_, errno, kUnwritable);
-    return;
-  }
-  if (exists && access(target.c_str(), W_OK) != 0) throw system_error(path_, errno, kUnwritable);
-
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  folder_.descriptor = open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
-  if (folder_.descriptor < 0 && errno == ENOENT)
+  direct_ = is_descriptor(target_) || (exists_ && !fs::is_regular_file(status));
+  if (is_descriptor(target_)) return;
+  if (exists_ && access(target_.c_str(), W_OK) != 0) throw system_error(path_, errno, kUnwritable);
+  if (direct_ || access((folder / ".").c_str(), W_OK | X_OK) == 0) return;
+  if (errno == ENOENT)
     throw FileError(path_, "cannot be written: there is no folder " + folder.string(), ENOENT);
-  if (folder_.descriptor < 0) throw system_error(path_, errno, kUnwritable);
-  name_ = target.filename();
-  buffer_.attach(openat(folder_.descriptor, ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
-  const bool unnamed = buffer_.descriptor() >= 0 && access(link().c_str(), F_OK) == 0;
-  const auto create = [this](const char* name) {
-    buffer_.attach(openat(folder_.descriptor, name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    return buffer_.descriptor() >= 0;
-  };
-  if (!unnamed && !make_temporary(create))
-    throw system_error(path_, errno, exists ? "cannot be replaced in its folder" : kUnwritable);
-  if (exists) fchmod(buffer_.descriptor(), static_cast<mode_t>(status.permissions()));
+  throw system_error(path_, errno, exists_ ? "cannot be replaced in its folder" : kUnwritable);
 }
 
-template <typename Make>
-bool AtomicFile::make_temporary(const Make& make) {
-  // Not derived from the final name, which may already have the maximum length.
-  static std::atomic<unsigned> counter = 0;
-  do {
-    temporary_ =
-        ".edgewise." + std::to_string(getpid()) + "." + std::to_string(counter.fetch_add(1)) + ".partial";
-    if (make(temporary_.c_str())) return true;
-  } while (errno == EEXIST);
-  temporary_.clear();
-  return false;
-}
-
-std::string AtomicFile::link() const {
-  return "/proc/self/fd/" + std::to_string(buffer_.descriptor());
-}
-
-AtomicFile::~AtomicFile() {
-  if (!temporary_.empty()) unlinkat(folder_.descriptor, temporary_.c_str(), 0);
+void AtomicFile::write_directly() {
+  const auto descriptor = descriptor_of(target_);
+  const int error = write_all(descriptor ? fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
+                                         : open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC),
+                              stream_.view());
+  if (error != 0 && error != EPIPE) throw system_error(path_, error, kUnwritable);
 }
 
 void AtomicFile::commit() {
-  stream_.flush();
-  const bool direct = folder_.descriptor < 0, written = stream_.good();
-  const auto name_it = [this](const char* name) {
-    return linkat(AT_FDCWD, link().c_str(), folder_.descriptor, name, AT_SYMLINK_FOLLOW) == 0;
-  };
-  if (written && !direct && temporary_.empty() && !make_temporary(name_it))
-    throw system_error(path_, errno, kUnwritable);
-  const bool closed = buffer_.close();
-  if (direct && buffer_.error() == EPIPE) return;
-  if (!written || !closed) throw system_error(path_, buffer_.error(), kUnwritable);
-  if (direct) return;
-  if (renameat(folder_.descriptor, temporary_.c_str(), folder_.descriptor, name_.c_str()) != 0)
-    throw system_error(path_, errno, "cannot be replaced");
-  temporary_.clear();
+  if (direct_) return write_directly();
+  // Not derived from the final name, which may already have the maximum length.
+  static std::atomic<unsigned> counter = 0;
+  fs::path temporary;
+  int descriptor = -1;
+  do {
+    const std::string number = std::to_string(getpid()) + "." + std::to_string(counter.fetch_add(1));
+    temporary = target_.parent_path() / (".edgewise." + number + ".partial");
+    descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EEXIST);
+  if (descriptor < 0)
+    throw system_error(path_, errno, exists_ ? "cannot be replaced in its folder" : kUnwritable);
+  struct stat older {};
+  if (stat(target_.c_str(), &older) == 0) fchmod(descriptor, older.st_mode & 07777);
+  int error = write_all(descriptor, stream_.view());
+  const bool written = error == 0;
+  if (written && std::rename(temporary.c_str(), target_.c_str()) == 0) return;
+  if (written) error = errno;
+  unlink(temporary.c_str());
+  throw system_error(path_, error, written ? "cannot be replaced" : kUnwritable);
 }
 
 }  // namespace edgewise

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -45,15 +46,9 @@ inline FrontendOptions options_of(int width, int height, std::string_view cull, 
   return options;
 }
 
-inline py::dict counts_of(const FrontendStats& s) {
-  using py::literals::operator""_a;
-  return py::dict("meshes"_a = s.meshes, "meshes_culled"_a = s.meshes_culled, "triangles"_a = s.triangles,
-                  "whole_mesh"_a = s.whole_mesh, "not_finite"_a = s.not_finite, "outside"_a = s.outside,
-                  "not_in_front"_a = s.not_in_front, "clipped"_a = s.clipped,
-                  "clipped_near"_a = s.clipped_near, "clipped_far"_a = s.clipped_far,
-                  "clipped_guard"_a = s.clipped_guard, "pieces"_a = s.pieces, "culled"_a = s.culled,
-                  "zero_area"_a = s.zero_area, "emitted"_a = s.emitted);
-}
+// The counts of edgewise.Stats, in its order.
+using Counts = std::array<std::uint64_t, 15>;
+static_assert(sizeof(Counts) == sizeof(FrontendStats));
 
 // Text that may hold bytes of a file or of its name.
 inline py::str text_of(const std::string& bytes) {
@@ -129,12 +124,12 @@ class Drawn {
     }
   }
 
-  // Returns the counts of edgewise.Stats by name, summed over the views.
-  py::dict draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
-                const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull,
-                int subpixel_bits, int threads, bool shade, const std::string& backend,
-                std::uint32_t background, bool clear, const std::optional<std::array<int, 4>>& scissor,
-                const py::object& progress) {
+  // Returns the counts summed over the views.
+  Counts draw(const Matrix& views, const Matrix& projections, const std::optional<py::array>& payload,
+              const py::array& depth, bool ids, std::uint32_t first_id, const std::string& cull,
+              int subpixel_bits, int threads, bool shade, const std::string& backend,
+              std::uint32_t background, bool clear, const std::optional<std::array<int, 4>>& scissor,
+              const py::object& progress) {
     const auto cameras = cameras_of(views, projections);
     const Frames frames(payload, depth, true);
     FrontendOptions options = options_of(frames.width, frames.height, cull, subpixel_bits);
@@ -152,7 +147,7 @@ class Drawn {
       stats += drawer_->frontend.stats();
     };
     for_each_view(cameras, frames.views, draw_view, progress);
-    return counts_of(stats);
+    return std::bit_cast<Counts>(stats);
   }
 
   py::tuple barycentrics(const Matrix& views, const Matrix& projections,

@@ -11,9 +11,8 @@ int machine_cores();  // online
 // cores of the CPU quotas of its cgroups.
 int usable_cores();
 
-// The least CPU quota, in cores, of the cgroups that /proc/self/cgroup names and of their parents, by their
-// files below `root`: cpu.max (version 2), cpu.cfs_quota_us and cpu.cfs_period_us (version 1). Infinite if
-// there is none.
+// The least CPU quota, in cores, of the cgroup (version 2) that /proc/self/cgroup names and of its parents,
+// by their files cpu.max below `root`. Infinite if there is none.
 double cpu_quota(const std::filesystem::path& membership = "/proc/self/cgroup",
                  const std::filesystem::path& root = "/sys/fs/cgroup");
 

@@ -26,7 +26,8 @@ Progress::Progress() : terminal_(moves_cursor(STDERR_FILENO)) {}
 
 void Progress::show(std::optional<double> fraction, std::string_view label) {
   if (!terminal_) return;
-  const int percent = fraction ? static_cast<int>(100.0 * std::clamp(*fraction, 0.0, 1.0)) : -1;
+  if (fraction) fraction = std::clamp(*fraction, 0.0, 1.0);
+  const int percent = fraction ? static_cast<int>(100.0 * *fraction) : -1;
   const auto now = std::chrono::steady_clock::now();
   if (percent == shown_percent_ && now - shown_at_ < std::chrono::seconds(1)) return;
   shown_percent_ = percent;
@@ -41,7 +42,13 @@ void Progress::show(std::optional<double> fraction, std::string_view label) {
     line += fmt::format("[{:<{}}] {:3}% ", std::string(filled, '#'), bar, percent);
     label_room -= kColumnsBesideBar + bar;
   }
-  line += printable_within(label, static_cast<std::size_t>(std::max(0, label_room)));
+  std::string text(label);
+  const double spent_s = std::chrono::duration<double>(now - start_).count();
+  if (percent >= 1 && spent_s >= 1.0) {
+    const auto left_s = static_cast<int>(spent_s * (1.0 - *fraction) / *fraction + 0.5);
+    text = fmt::format("{}:{:02} left, {}", left_s / 60, left_s % 60, label);
+  }
+  line += printable_within(text, static_cast<std::size_t>(std::max(0, label_room)));
   on_screen = 1;
   std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);
@@ -53,13 +60,6 @@ void Progress::erase() {
   std::fflush(stderr);
   on_screen = 0;
   shown_percent_ = -1;
-}
-
-std::string TimeLeft::label(double fraction, std::string_view label) const {
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-  if (spent.count() < 1.0 || fraction < 0.01) return std::string(label);
-  const auto left_s = static_cast<int>(spent.count() * (1.0 - fraction) / fraction + 0.5);
-  return fmt::format("{}:{:02} left, {}", left_s / 60, left_s % 60, label);
 }
 
 void erase_progress_on_signal() {

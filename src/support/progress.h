@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace edgewise::tools {
@@ -15,24 +14,15 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Redraws when the percentage changes, or after a second. No fraction: the label alone.
+  // Redraws when the percentage changes, or after a second. "2:05 left, LABEL" from the first second and
+  // percent on, estimated from the time since the bar was made. No fraction: the label alone.
   void show(std::optional<double> fraction, std::string_view label);
   void erase();  // call it before printing a line
 
  private:
   bool terminal_;
   int shown_percent_ = -1;
-  std::chrono::steady_clock::time_point shown_at_;
-};
-
-// Estimates the remaining time from the time spent.
-class TimeLeft {
- public:
-  // "2:05 left, LABEL"; LABEL alone during the first second and the first percent.
-  std::string label(double fraction, std::string_view label) const;
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_at_;
 };
 
 // For the signal handler: erases a bar if one is on the screen. Async-signal-safe.

@@ -6,14 +6,13 @@
 
 #include <cerrno>
 #include <filesystem>
-#include <ostream>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "core/input_file.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
-#include "files/atomic_file.h"
 #include "support/console.h"
 
 namespace edgewise::tools {
@@ -31,12 +30,13 @@ Source load_built_in(const std::string& name, const SceneRequest& request, bool 
 // a file in memory, under the same number.
 void keep_content(const std::string& path) {
   if (std::filesystem::is_regular_file(path)) return;
-  FileBuffer kept;
   const InputFile input = open_input(path);
-  kept.attach(memfd_create("edgewise", MFD_CLOEXEC));
-  if (input.size > 0) std::ostream(&kept) << input.stream->rdbuf() << std::flush;
-  if (kept.descriptor() < 0 || kept.error() != 0 || dup2(kept.descriptor(), *descriptor_of(path)) < 0)
-    throw system_error(path, kept.error() != 0 ? kept.error() : errno);
+  const int kept = memfd_create("edgewise", MFD_CLOEXEC);
+  std::ofstream out("/proc/self/fd/" + std::to_string(kept), std::ios::binary);
+  if (input.size > 0) out << input.stream->rdbuf();
+  out.close();
+  if (kept < 0 || !out || dup2(kept, *descriptor_of(path)) < 0) throw system_error(path, errno);
+  close(kept);
 }
 
 }  // namespace

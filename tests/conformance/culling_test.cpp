@@ -1,10 +1,8 @@
 // Culling: every mode with every winding, for triangle lists, and for one tiny triangle per pixel with
 // alternating windings. Exact areas decide which triangles remain, winding numbers what they cover.
-#include <array>
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
-#include "conformance/streams.h"
 #include "core/random.h"
 
 namespace edgewise::conformance {
@@ -48,42 +46,6 @@ class ConformanceCulling : public Conformance {
 TEST_F(ConformanceCulling, ListsKeepTheFacesThatTheModeSelects) {
   Random random(1);
   for (int trial = 0; trial < 4; ++trial) expect_culled_both_ways(scattered(random), "list");
-}
-
-// The same through a camera: the front end culls meshes. The snapped positions without culling give the
-// expected facing.
-TEST_F(ConformanceCulling, MeshesKeepTheFacesThatTheModeSelects) {
-  Random random(4);
-  for (const float mirror : {1.0f, -1.0f}) {
-    Scene scene;
-    Mesh mesh;
-    for (unsigned i = 0; i < 90; ++i) {
-      mesh.positions.emplace_back(random.uniform(-3.0f, 3.0f), random.uniform(-3.0f, 3.0f),
-                                  -random.uniform(3.0f, 9.0f));
-      if (i % 3 == 2) mesh.triangles.emplace_back(i - 2, i - 1, i);
-    }
-    mesh.colours.assign(mesh.triangles.size(), 0);
-    scene.meshes.push_back(mesh);
-    scene.instances.push_back({.scale = {mirror, 1, 1}});
-    for (const int bits : kBits)
-      with_each("mesh, bits " + std::to_string(bits), [&](Pipeline& pipeline) {
-        const auto span = pipeline.triangles(scene, {.subpixel_bits = bits});
-        const std::vector<ScreenTriangle> all(span.begin(), span.end());
-        ASSERT_GT(all.size(), 20u);
-        for (const Cull cull : cull_modes()) {
-          std::vector<std::uint32_t> expected, ids;
-          for (const ScreenTriangle& t : all) {
-            const std::array positions{SubPosition{t.x_q15[0], t.y_q15[0]},
-                                       SubPosition{t.x_q15[1], t.y_q15[1]},
-                                       SubPosition{t.x_q15[2], t.y_q15[2]}};
-            if (is_kept(cull, area(positions))) expected.push_back(t.payload);
-          }
-          for (const ScreenTriangle& t : pipeline.triangles(scene, {.cull = cull, .subpixel_bits = bits}))
-            ids.push_back(t.payload);
-          ASSERT_EQ(ids, expected) << name_of(cull);
-        }
-      });
-  }
 }
 
 TEST_F(ConformanceCulling, TinyTrianglesOfAlternatingWindingsFollowTheMode) {

@@ -37,30 +37,22 @@ TEST_F(ConformanceFillRules, QuadsOnTheLatticeAreHitOnceAtEveryAngle) {
   EXPECT_GT(ties_, 2000) << "too few samples on edges to test the tie rule";
 }
 
+// Quads in the image, and quads that leave it. If a quad contains the image, the hit count is 1 in every
+// pixel, without an oracle.
 TEST_F(ConformanceFillRules, QuadsAtAnyAngleAreHitOnce) {
   Random random(3);
   for (int step = 0; step < 36; ++step) {
     const double angle = step * std::numbers::pi / 18;
-    const glm::dvec2 centre(random.uniform(20.0f, 44.0f), random.uniform(20.0f, 44.0f));
-    expect_filled(rotated(centre, random.uniform(0.4f, 26.0f), {std::cos(angle), std::sin(angle)}), {},
-                  "step " + std::to_string(step));
-  }
-}
-
-// Quads that leave the image. If a quad contains the image, the hit count is 1 in every pixel, without an
-// oracle.
-TEST_F(ConformanceFillRules, QuadsAcrossTheImagesEdgesAreHitOnce) {
-  for (int step = 0; step < 12; ++step) {
-    const double angle = 0.1 + step * std::numbers::pi / 6;
-    const glm::dvec2 along(std::cos(angle), std::sin(angle));
+    const glm::dvec2 along(std::cos(angle), std::sin(angle)),
+        centre(random.uniform(20.0f, 44.0f), random.uniform(20.0f, 44.0f));
+    expect_filled(rotated(centre, random.uniform(0.4f, 26.0f), along), {}, "step " + std::to_string(step));
+    if (step % 3 != 0) continue;
     for (const double half : {30.0, 200.0, 9000.0}) {
       const View view{33, 47};
       const auto quad = rotated({16.5, 23.5}, half, along);
       expect_filled(quad, view, "half " + std::to_string(half) + ", step " + std::to_string(step));
-      if (half > 100) {
-        const auto all = windings(snapped(quad, 8), view.width, view.height);
-        EXPECT_EQ(std::count(all.begin(), all.end(), 1), 33 * 47);
-      }
+      const auto all = windings(snapped(quad, 8), view.width, view.height);
+      EXPECT_TRUE(half < 100 || std::count(all.begin(), all.end(), 1) == 33 * 47);
     }
   }
 }

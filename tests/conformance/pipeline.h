@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "conformance/quads.h"
+#include "conformance/streams.h"
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"

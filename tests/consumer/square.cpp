@@ -1,14 +1,16 @@
-// Draws two overlapping squares, and prints the picture's hash; square.c draws the same.
+// Draws two overlapping squares into the program's own memory, and prints the picture's hash; square.c draws
+// the same.
 #include <edgewise/draw.h>
 #include <edgewise/hash.h>
 
 #include <cstdio>
 #include <limits>
+#include <vector>
 
 using namespace edgewise;
 
 int main() {
-  constexpr int kWidth = 320, kHeight = 180;
+  constexpr int kWidth = 320, kHeight = 180, kStride = 333;  // px
   Scene scene;
   scene.meshes.push_back({.positions = {{-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}},
                           .triangles = {{0, 1, 2}, {0, 2, 3}},
@@ -19,8 +21,9 @@ int main() {
   scene.matrices = {view, perspective_projection(1.0, double{kWidth} / kHeight, .1,
                                                  std::numeric_limits<double>::infinity())};
   Frontend frontend;
-  Framebuffer frame(kWidth, kHeight);
+  std::vector<std::uint32_t> depth(kStride * kHeight), payload(kStride * kHeight);
+  const FrameView frame{depth.data(), payload.data(), kWidth, kHeight, kStride};
   draw(scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
-       *find_backend("tiled").make(), frame.view(), {rgb(0, 0, 0)});
+       *find_backend("tiled").make(), frame, {rgb(0, 0, 0)});
   std::printf("%016llx\n", static_cast<unsigned long long>(hash_of(frame)));
 }

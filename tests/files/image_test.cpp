@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
-#include <limits>
 #include <locale>
 #include <span>
 #include <sstream>
 #include <tuple>
 
 #include "core/little_endian.h"
-#include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/scene.h"
@@ -151,30 +149,19 @@ TEST(Picture, MalformedFilesAreRefusedWithTheReason) {
   const char* const unknown = "is neither a PNG, a PGM or PPM (P2, P3, P5, P6) nor a PFM";
   for (const auto& [content, message] :
        Rows{{"hello, this is no picture", unknown},
-            {"", unknown},
             {"P61 1 255\n123", "does not start with P2, P3, P5 or P6"},
             {"P3\n1 1\n255\n1 2\n", "truncated: header promises 3 samples, 4 bytes follow"},
-            {"P3\n1 1\n255\n1   2  \n", "malformed or truncated text"},
             {"P3\n1 1\n255\n1 2 3\n4", "too long: text follows the last sample"},
             {"P2\n1 1\n255\n-1\n", "malformed: '-1' is not a sample"},
             {"P2\n1 1\n255\n256\n", "has a sample of 256, more than its maximum of 255"},
-            {"P2\n1 1\n255", "truncated: header promises 1 samples, 0 bytes follow"},
-            {"P3\n16384 16384\n255\n1 2 3\n", "truncated: header promises 805306368 samples, 6 bytes follow"},
-            {"P5\n2 2\n255\n123", "truncated: header promises 4 bytes, 3 follow"},
-            {"P4\n8 1\n1", unknown},
             {"P6\n-1 1\n255\n", "malformed: '-1' is not a size"},
             {"P6\n0 1\n255\n", "image size 0x1 is outside 1 to 16384"},
             {"P6\n99999999999999999999 1\n255\n", "malformed: '99999999999999999999' is not a size"},
             {"P6\n" + std::string(100, '1'), "malformed or truncated header"},
-            {"P6\n# no end", "malformed or truncated header"},
             {"P6\n1 1\n65536\n123456", "the maximum must be 1 to 65535"},
             {"P6\n1 1\n3\n\1\4\1", "has a sample of 4, more than its maximum of 3"},
-            {"P6\n1 1\n256\n\1\1\1\1\1\1", "has a sample of 257, more than its maximum of 256"},
             {"P6\n1 1\n255\n1234", "too long: header promises 3 bytes, 4 follow"},
-            {"P6\n1 1\n255\r\n1234", "too long: header promises 3 bytes, 4 follow"},
             {"P6\n1 1\n255\n\n123", "too long: header promises 3 bytes, 4 follow"},
-            {"P6\r\n1 1\r\n255\r\n12", "truncated: header promises 3 bytes, 2 follow"},
-            {"P6\n16384 16384\n255\n1234", "truncated: header promises 805306368 bytes, 4 follow"},
             {"Pf\n1 1\n-1.0\n1234", "is a depth map, which read_pfm() reads"}})
     EXPECT_EQ(message_of([&] { read_image(dir.write("bad", content)); }), file + message);
   for (const auto& [content, message] :
@@ -182,27 +169,11 @@ TEST(Picture, MalformedFilesAreRefusedWithTheReason) {
             {"P6\n1 1\n255\n123", "does not start with Pf or PF"},
             {"PF\n1 1\n-1.0\n123456789012", "has three channels; a depth map has one"},
             {"Pf\n1 1\n0\n1234", "malformed header: '0' is not a scale"},
-            {"Pf\n1 1\nnan\n1234", "malformed header: 'nan' is not a scale"},
-            {"Pf\n2 1\n-1.0\n1234567", "truncated: header promises 8 bytes, 7 follow"}})
+            {"Pf\n1 1\nnan\n1234", "malformed header: 'nan' is not a scale"}})
     EXPECT_EQ(message_of([&] { read_pfm(dir.write("bad", content)); }), file + message);
 }
 
-TEST(Picture, UnknownExtensionIsNotWritten) {
-  EXPECT_EQ(message_of([] { write_image("a", test_image(1, 1)); }), "a: is neither a .png nor a .ppm");
-}
-
 // ---- Depth
-
-TEST(Pfm, RoundTripKeepsEveryBit) {
-  const TempDir dir;
-  const fs::path path = dir.path() / "a.pfm";
-  const DepthMap map{
-      2, 3, {0.0f, -0.0f, 1.0f, std::nanf("5"), std::numeric_limits<float>::infinity(), 1e-40f}};
-  write_pfm(path, map);
-  const DepthMap back = read_pfm(path);
-  ASSERT_EQ(std::tuple(back.width, back.height, back.depth01.size()), std::tuple(2, 3, 6u));
-  EXPECT_EQ(std::memcmp(back.depth01.data(), map.depth01.data(), 24), 0);
-}
 
 TEST(Pfm, RowsLieBottomUpAndBothByteOrdersAreRead) {
   const TempDir dir;
@@ -238,39 +209,10 @@ TEST(Pfm, LinesMayEndInCrLf) {
     EXPECT_EQ(depths_after(header), expected) << header;
 }
 
-TEST(Frame, DepthBecomesZeroToOneWithoutThePadding) {
-  Framebuffer frame(3, 2);
-  const std::uint32_t units[2][3] = {
-      {contract::kDepthHead, contract::kDepthHead + contract::kDepthRange, contract::kDepthClear},
-      {contract::kDepthHead - 60, contract::kDepthHead + contract::kDepthRange + 60,
-       contract::kDepthHead + contract::kDepthRange / 2}};
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 3; ++x) {
-      frame.view().depth[y * frame.stride() + x] = units[y][x];
-      frame.view().payload[y * frame.stride() + x] = static_cast<std::uint32_t>(10 * y + x);
-    }
-  EXPECT_EQ(to_depth_map(frame).depth01, (std::vector<float>{0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 0.5f}));
-  EXPECT_EQ(to_image(frame).pixels, (Colours{0, 1, 2, 10, 11, 12}));
-  FrameView depth_only = frame.view();
-  depth_only.payload = nullptr;
-  EXPECT_THROW(to_image(depth_only), std::invalid_argument);
-}
-
 // ---- Differences
 
 std::uint32_t red_of(std::uint32_t pixel) {
   return pixel & 255;
-}
-
-TEST(Difference, OfEqualImagesIsDimmedGrey) {
-  const Image image = test_image(9, 7);
-  const Difference d = difference(image, image);
-  EXPECT_EQ(d.largest, 0.0);
-  EXPECT_EQ(std::tie(d.count, d.first_x), std::tuple(0u, -1));
-  for (const std::uint32_t pixel : d.picture.pixels) {
-    EXPECT_EQ(pixel, rgb(red_of(pixel), red_of(pixel), red_of(pixel)));
-    EXPECT_LE(red_of(pixel), 85u);
-  }
 }
 
 TEST(Difference, CountsDifferingPixelsAndFindsTheLargestDifference) {
@@ -299,11 +241,6 @@ TEST(Difference, OfDepthsFindsTheSmallestStepAndNan) {
   EXPECT_EQ(std::tie(d.count, d.first_x), std::tuple(2u, 0));
   EXPECT_EQ(d.picture.pixels,
             (Colours{rgb(255, 0, 0), rgb(63, 63, 63), rgb(0, 0, 0), rgb(255, 0, 0), rgb(0, 0, 0)}));
-}
-
-TEST(Difference, OfUnequalSizesIsRefused) {
-  EXPECT_THROW(difference(test_image(2, 1), test_image(1, 2)), std::invalid_argument);
-  EXPECT_THROW(difference(DepthMap{1, 1, {0}}, DepthMap{2, 1, {0, 0}}), std::invalid_argument);
 }
 
 TEST(Enlarge, MakesSquares) {

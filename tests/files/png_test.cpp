@@ -156,20 +156,6 @@ TEST(PngSamples, Of8BitsEqualTheSameValuesOf16) {
   }
 }
 
-// A chunk after them may be cut, or IEND may lack.
-TEST(Png, CutBehindItsPixelsIsReadWithAWarning) {
-  const TempDir dir;
-  const std::string whole = Png{3, 1, 8, kRgb, kEight, ""}.file(), text = chunk("tEXt", "a\0b"s);
-  const std::size_t end = whole.size() - chunk("IEND", "").size();
-  for (const std::string& tail : {text, text.substr(0, 9)}) {
-    const auto path = dir.write("a.png", whole.substr(0, end) + tail);
-    std::vector<std::string> warnings;
-    EXPECT_EQ(read_image(path, &warnings).pixels, kEightPixels);
-    EXPECT_EQ(warnings, std::vector<std::string>{path.string() + ": ends after its pixels, without IEND"});
-    EXPECT_EQ(read_image(path).pixels, kEightPixels);
-  }
-}
-
 TEST(Png, AlphaIsComparedApart) {
   const TempDir dir;
   const auto file = [&](const char* name, const Png& png) { return dir.write(name, png.file()); };

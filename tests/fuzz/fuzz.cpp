@@ -10,7 +10,6 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "edgewise/contract.h"
 #include "edgewise/draw.h"
@@ -38,7 +37,7 @@ MemoryFile::~MemoryFile() {
 
 namespace {
 
-constexpr std::uint32_t kBackground = 0xABCD1234, kCanary = 0xDEADBEEF;
+constexpr std::uint32_t kBackground = 0xABCD1234;
 
 std::string describe(const BackendInfo& backend, const lab::DrawOptions& how) {
   const Execution& e = how.execution;
@@ -46,35 +45,6 @@ std::string describe(const BackendInfo& backend, const lab::DrawOptions& how) {
          std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
          lab::describe(how.tiles);
 }
-
-// A plane of pixels in an allocation of exactly its size, so that a sanitizer detects accesses outside it.
-class Plane {
- public:
-  explicit Plane(const Placement& p)
-      : p_(p),
-        stride_(p.width + p.padding),
-        pixels_(static_cast<std::size_t>(p.start + stride_ * (p.height - 1) + p.width), kCanary) {}
-
-  std::uint32_t* data() { return pixels_.data() + p_.start; }
-  int stride() const { return stride_; }
-
-  // Requires `expected(x, y)` in the frame and canaries outside it.
-  template <typename Expected>
-  void check(const Expected& expected, const std::string& what) const {
-    for (int i = 0; i < static_cast<int>(pixels_.size()); ++i) {
-      const int x = (i - p_.start) % stride_, y = (i - p_.start) / stride_;
-      const bool beside = i < p_.start || x >= p_.width;
-      if (pixels_[static_cast<std::size_t>(i)] != (beside ? kCanary : expected(x, y)))
-        fail(what + (beside ? ": wrote outside the frame at (" : ": wrong at (") + std::to_string(x) + ", " +
-             std::to_string(y) + ")");
-    }
-  }
-
- private:
-  Placement p_;
-  int stride_;
-  std::vector<std::uint32_t> pixels_;
-};
 
 // The picture that every backend must draw.
 Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int height) {
@@ -87,19 +57,21 @@ Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int 
   return frame;
 }
 
-// Calls draw(backend, frame, execution) for every backend and SIMD target, and requires the expected picture.
+// Calls draw(backend, frame, execution) for every backend and SIMD target, and requires the expected picture
+// and nothing written outside it.
 template <typename Draw>
-void check_pictures(const Framebuffer& expected, const Placement& p, lab::DrawOptions how,
+void check_pictures(const Framebuffer& expected, lab::GuardedFrame::Layout layout, lab::DrawOptions how,
                     const std::string& what, const Draw& draw) {
   for (const BackendInfo& info : backends())
     for (const SimdTarget target : supported_targets()) {
       how.execution.target = target;
-      Plane depth(p), payload(p);
-      draw(*lab::make(info, how.tiles),
-           FrameView{depth.data(), payload.data(), p.width, p.height, depth.stride()}, how.execution);
-      const std::string where = what + describe(info, how);
-      depth.check([&](int x, int y) { return expected.depth_row(y)[x]; }, where + ", depth");
-      payload.check([&](int x, int y) { return expected.payload_row(y)[x]; }, where + ", payload");
+      lab::GuardedFrame frame(expected.width(), expected.height(), layout);
+      draw(*lab::make(info, how.tiles), frame.view(), how.execution);
+      const lab::FrameDifference found = lab::compare(expected, frame);
+      if (found.any())
+        fail(what + describe(info, how) + ": " + std::to_string(found.outside) +
+             " words outside the frame, wrong at (" + std::to_string(found.first_x) + ", " +
+             std::to_string(found.first_y) + ")");
     }
 }
 
@@ -111,8 +83,9 @@ auto draw_triangles(std::span<const ScreenTriangle> triangles) {
 
 }  // namespace
 
-void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, lab::DrawOptions how) {
-  check_pictures(reference(triangles, p.width, p.height), p, how, "", draw_triangles(triangles));
+void check_backends(std::span<const ScreenTriangle> triangles, int width, int height,
+                    lab::GuardedFrame::Layout layout, const lab::DrawOptions& how) {
+  check_pictures(reference(triangles, width, height), layout, how, "", draw_triangles(triangles));
 }
 
 namespace {
@@ -170,10 +143,10 @@ void check_frontend(const Drawable& drawable, int width, int height) {
     if (!expected) return;
     check_ranges(*expected);
     if (cull != Cull::none) continue;
-    const Placement placement{options.width, options.height, 0, 0};
+    const auto layout = lab::GuardedFrame::aligned(options.width);
     const Framebuffer picture = reference(*expected, options.width, options.height);
-    check_pictures(picture, placement, {}, "", draw_triangles(*expected));
-    check_pictures(picture, placement, {}, "whole frame, ",
+    check_pictures(picture, layout, {}, "", draw_triangles(*expected));
+    check_pictures(picture, layout, {}, "whole frame, ",
                    [&](Backend& backend, const FrameView& frame, const Execution& execution) {
                      draw(in_clusters, vectors, options, backend, frame, {kBackground}, execution);
                    });

@@ -59,17 +59,10 @@ class MemoryFile {
   std::filesystem::path path_;
 };
 
-// The layout of a frame in the caller's memory.
-struct Placement {
-  int width, height;  // px
-  int padding;        // px from the end of a row to the next one
-  int start;          // px before the first row
-};
-
 // Checks that every backend and SIMD target draws the same picture (the oracle's for small inputs) and writes
 // nothing outside the frame. `how.execution.target` is ignored.
-void check_backends(std::span<const ScreenTriangle> triangles, const Placement& placement,
-                    lab::DrawOptions how);
+void check_backends(std::span<const ScreenTriangle> triangles, int width, int height,
+                    lab::GuardedFrame::Layout layout, const lab::DrawOptions& how);
 
 // Checks that the front end emits the same triangles with every SIMD target, in the contract's ranges, and
 // draws them with the backends, also in one call with the front end. Image sides are limited to 64 px. The

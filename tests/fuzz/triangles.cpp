@@ -25,8 +25,8 @@ void repeat(std::vector<ScreenTriangle>& triangles, int times, int pixels) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes bytes(data, size);
-  const fuzz::Placement placement{1 + bytes.below(140), 1 + bytes.below(80), bytes.below(20),
-                                  bytes.below(20)};
+  const int width = 1 + bytes.below(140), height = 1 + bytes.below(80), padding = bytes.below(20);
+  const lab::GuardedFrame::Layout layout{padding, bytes.below(16)};
   lab::DrawOptions how;
   how.execution.threads = std::max(1, bytes.below(8) - 4);  // mostly 1, which is faster here
   how.execution.tile_size = 16 << bytes.below(3);
@@ -37,16 +37,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto families = lab::triangle_families();
   const auto family = families[static_cast<std::size_t>(bytes.below(static_cast<int>(families.size())))];
   const int count = 1 + bytes.below(200);
-  auto triangles = lab::adversarial(family, count, placement.width, placement.height,
-                                    [&](std::uint64_t end) -> std::uint64_t {
-                                      const bool fits_8 = end <= 1u << 8, fits_16 = end <= 1u << 16;
-                                      return (fits_8    ? bytes.take<std::uint8_t>()
-                                              : fits_16 ? bytes.take<std::uint16_t>()
-                                                        : bytes.take<std::uint32_t>()) %
-                                             end;
-                                    });
-  repeat(triangles, times, placement.width * placement.height);
+  auto triangles = lab::adversarial(family, count, width, height, [&](std::uint64_t end) -> std::uint64_t {
+    const bool fits_8 = end <= 1u << 8, fits_16 = end <= 1u << 16;
+    return (fits_8    ? bytes.take<std::uint8_t>()
+            : fits_16 ? bytes.take<std::uint16_t>()
+                      : bytes.take<std::uint32_t>()) %
+           end;
+  });
+  repeat(triangles, times, width * height);
   for (std::uint32_t id = 0; ScreenTriangle & t : triangles) t.payload = id++;
-  fuzz::check_backends(triangles, placement, how);
+  fuzz::check_backends(triangles, width, height, layout, how);
   return 0;
 }

@@ -42,28 +42,15 @@ Scene hard_scene() {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
                   kInf = std::numeric_limits<float>::infinity();
   Scene scene;
-  scene.meshes.push_back({.positions = {{-0.7f, -0.61f, 0.1f},
-                                        {0.83f, -0.37f, -0.3f},
-                                        {0.11f, 0.93f, 0.27f},
-                                        {kNan, 0, 0},
-                                        {kInf, 1, 0},
-                                        {3e38f, -2e38f, 1},
-                                        {-1e7f, 3, 0.1f},
-                                        {0.3f, 0.2f, 40},
-                                        {1e-40f, 3e-40f, 2e-39f},
-                                        {7e-39f, 0, 0},
-                                        {0, 9e-39f, 0}},
-                          .triangles = {{0, 1, 2},
-                                        {0, 3, 1},
-                                        {1, 4, 2},
-                                        {2, 5, 0},
-                                        {0, 6, 2},
-                                        {7, 1, 2},
-                                        {0, 7, 6},
-                                        {8, 9, 10},
-                                        {8, 1, 2}},
-                          .colours = {1, 2, 3, 4, 5, 6, 7, 8, 9},
-                          .flags = std::vector<std::uint8_t>(9, kTwoSided)});
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{-0.7f, -0.61f, 0.1f}, {0.83f, -0.37f, -0.3f}, {0.11f, 0.93f, 0.27f},
+                    {kNan, 0, 0},          {kInf, 1, 0},           {3e38f, -2e38f, 1},
+                    {-1e7f, 3, 0.1f},      {0.3f, 0.2f, 40},       {1e-40f, 3e-40f, 2e-39f},
+                    {7e-39f, 0, 0},        {0, 9e-39f, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 4, 2},  {2, 5, 0}, {0, 6, 2},
+                    {7, 1, 2}, {0, 7, 6}, {8, 9, 10}, {8, 1, 2}};
+  mesh.colours = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  mesh.flags.assign(9, kTwoSided);
   scene.instances = {{.mesh = 0, .angle = 0.3f}, {.mesh = 0, .translation = {0.1, 0.2, -0.7}}};
   scene.camera.position = {0.2, 0.3, 3.1};
   return scene;

@@ -68,19 +68,9 @@ SceneRequest request_of(const BuiltIn& scene, int width, int height, int step) {
 
 Group built_in(const BuiltIn& scene, int width, int height, int part) {
   const int first = part * kFrames / kCulls;
-  const auto request = [=](int step) { return request_of(scene, width, height, first + step); };
-  Group group = group_of(text("%s %dx%d %d", scene.name.data(), width, height, part), width, height,
-                         [=](int step) { return find_scene(scene.name).make(request(step)); });
-  group.frame = [=, frame = group.frame](int i) {
-    Frame made = frame(i);
-    const SceneRequest r = request(i / kCulls);
-    made.redraw = text("edgewise render %s --size %dx%d --time %.17g --cull %s%s%s -o FILE",
-                       scene.name.data(), width, height, double{r.time}, name_of(made.frontend.cull).data(),
-                       made.frontend.payload == Payload::id ? " --payload id" : "",
-                       scene.scale == 0 ? "" : text(" --scale %.17g", r.scale).c_str());
-    return made;
-  };
-  return group;
+  return group_of(text("%s %dx%d %d", scene.name.data(), width, height, part), width, height, [=](int step) {
+    return find_scene(scene.name).make(request_of(scene, width, height, first + step));
+  });
 }
 
 Group with_files(const char* prefix, const FileFormat& format, Group group) {
@@ -99,7 +89,6 @@ Group at_bits(int bits, Group group) {
   group.frame = [bits, frame = group.frame](int i) {
     Frame made = frame(i * kOneIn);
     made.frontend.subpixel_bits = bits;
-    if (!made.redraw.empty()) made.redraw += text(" --subpixel-bits %d", bits);
     return made;
   };
   return group;
@@ -164,16 +153,7 @@ void add_conformance_streams(std::vector<Group>& all) {
 
 Frame random_frame(std::uint64_t number, int bits) {
   randomized::Case c = randomized::make_case(kSeed, number, bits);
-  Frame frame{c.width,
-              c.height,
-              c.background,
-              std::move(c.triangles),
-              nullptr,
-              c.frontend,
-              bits == randomized::random_subpixel_bits(kSeed, number)
-                  ? text("edgewise verify --random --seed %d --case %d", static_cast<int>(kSeed),
-                         static_cast<int>(number))
-                  : ""};
+  Frame frame{c.width, c.height, c.background, std::move(c.triangles), nullptr, c.frontend};
   if (c.drawable) frame.drawable = std::make_shared<const Drawable>(std::move(*c.drawable));
   return frame;
 }

@@ -19,7 +19,6 @@ struct Frame {
   std::vector<ScreenTriangle> triangles = {};          // if there is no drawable
   std::shared_ptr<const Drawable> drawable = nullptr;  // for the front end, with
   FrontendOptions frontend = {};
-  std::string redraw = {};           // the command that draws it, if there is one
   const FileFormat* file = nullptr;  // whose bytes are hashed, too
 };
 

@@ -1,4 +1,4 @@
-"""The conventions, against matrices of peer libraries: what is drawn lies where their matrices say."""
+"""The conventions of matrices, against those of pyrr and of K. frames_test.py tests that pixels lie where the matrices say."""
 import numpy as np
 import pytest
 
@@ -11,108 +11,26 @@ EYES = [((0, 0, 5), (0, 0, 0), (0, 1, 0)), ((3, 2, -4), (0.3, 0, 0.1), (0.2, 1, 
 LEFT, RIGHT, BOTTOM, TOP = -2.5, 3.0, -1.5, 1.75
 
 
-def pyrr_matrices(eye, target, up, parallel):
+@pytest.mark.parametrize("eye", EYES)
+def test_helpers_give_pyrrs_matrices(eye):
     matrix44 = pytest.importorskip("pyrr").matrix44  # of row vectors
-    view = matrix44.create_look_at(np.array(eye, float), np.array(target, float), np.array(up, float)).T
-    projection = (matrix44.create_orthogonal_projection(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR) if parallel else
-                  matrix44.create_perspective_projection(FOV_Y, ASPECT, NEAR, FAR)).T
-    return view, projection
-
-
-def vtk_matrices(eye, target, up, parallel):
-    camera = pytest.importorskip("vtkmodules.vtkRenderingCore").vtkCamera()
-    camera.SetPosition(*eye)
-    camera.SetFocalPoint(*target)
-    camera.SetViewUp(*up)
-    camera.SetViewAngle(FOV_Y)
-    camera.SetClippingRange(NEAR, FAR)
-    camera.SetParallelProjection(parallel)
-    camera.SetParallelScale(1.75)
-
-    def rows(matrix):
-        return np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
-    return rows(camera.GetViewTransformMatrix()), rows(camera.GetProjectionTransformMatrix(ASPECT, -1, 1))
-
-
-PEERS = {"pyrr": pyrr_matrices, "vtk": vtk_matrices}
-
-
-def check_triangle(camera, corners, pixels, depth):
-    """Draws a triangle, which must cover `pixels`, shape (3, 2), and have these depths in 0 ... 1 at them."""
-    (x0, y0), (x1, y1), (x2, y2) = pixels
-    twice_area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)  # positive: clockwise, since y points down
-    order = [0, 1, 2] if twice_area > 0 else [0, 2, 1]
-    ring = pixels[order]
-    centres = np.stack(np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5), axis=-1)
-    from_edges = []  # px, positive inside
-    for p, q in zip(ring, np.roll(ring, -1, axis=0)):
-        along = (q - p) / np.linalg.norm(q - p)
-        from_edges.append(along[0] * (centres[..., 1] - p[1]) - along[1] * (centres[..., 0] - p[0]))
-    inside = np.min(from_edges, axis=0)
-
-    ids, depths = edgewise.draw(corners, [[0, 1, 2]], camera, SIZE)
-    drawn = ids == 0
-    assert drawn[inside > 1 / 64].all() and not drawn[inside < -1 / 64].any()
-    assert (ids[~drawn] == edgewise.BACKGROUND_ID).all() and (depths[~drawn] == edgewise.DEPTH_CLEAR).all()
-    plane = np.linalg.solve(np.column_stack([pixels, np.ones(3)]), depth)  # depth is linear on the screen
-    expected = centres @ plane[:2] + plane[2]
-    slope = np.abs(plane[:2]).sum()  # vertices are snapped
-    assert np.allclose(edgewise.depth01(depths)[drawn], expected[drawn], rtol=0, atol=1e-6 + slope / 128)
-
-    front = edgewise.draw(corners, [[0, 1, 2]], camera, SIZE, cull="back").payload == 0
-    assert np.array_equal(front, drawn if twice_area > 0 else np.zeros_like(drawn))
-    return drawn.sum()
-
-
-@pytest.mark.parametrize("parallel", [False, True])
-@pytest.mark.parametrize("eye", EYES)
-@pytest.mark.parametrize("peer", PEERS)
-def test_triangles_lie_where_a_peers_matrices_say(peer, eye, parallel):
-    view, projection = PEERS[peer](*eye, parallel)
-    camera = edgewise.Camera(view, edgewise.projection_from(projection, z_from_minus_w=True))
-    random = np.random.default_rng(7)
-    pixels_drawn = 0
-    for corners in random.uniform(-1, 1, (20, 3, 3)).astype(np.float32):
-        pixels, z = in_pixels(projection @ view, corners.astype(float))
-        assert (np.abs(z) < 1).all()
-        pixels_drawn += check_triangle(camera, corners, pixels, (z + 1) / 2)
-    assert pixels_drawn > 500
-
-
-@pytest.mark.parametrize("eye", EYES)
-@pytest.mark.parametrize("peer", PEERS)
-def test_helpers_give_a_peers_matrices(peer, eye):
-    view, projection = PEERS[peer](*eye, False)
+    view = matrix44.create_look_at(*(np.array(part, float) for part in eye)).T
     assert np.allclose(edgewise.look_at(*eye), view, rtol=0, atol=1e-14)
-    ours = edgewise.perspective(np.radians(FOV_Y), ASPECT, NEAR, FAR)
-    assert np.allclose(edgewise.projection_from(projection, z_from_minus_w=True), ours, rtol=1e-14, atol=0)
-
-
-def test_orthographic_is_pyrrs():
-    _, projection = pyrr_matrices(*EYES[0], True)
-    ours = edgewise.orthographic(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR)
-    assert np.allclose(edgewise.projection_from(projection, z_from_minus_w=True), ours, rtol=1e-14, atol=1e-16)
+    for theirs, ours in (
+            (matrix44.create_perspective_projection(FOV_Y, ASPECT, NEAR, FAR), edgewise.perspective(np.radians(FOV_Y), ASPECT, NEAR, FAR)),
+            (matrix44.create_orthogonal_projection(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR),
+             edgewise.orthographic(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR))):
+        assert np.allclose(edgewise.projection_from(theirs.T, z_from_minus_w=True), ours, rtol=1e-14, atol=1e-16)
 
 
 @pytest.mark.parametrize("first_centre", [0.0, 0.5])
 def test_intrinsics_put_a_point_at_k_times_its_coordinates(first_centre):
     k = np.array([[90, 2, 45], [0, 110, 33], [0, 0, 1.0]])
-    world_to_camera = np.array([[0.8, 0, 0.6, 0.1], [0, 1, 0, -0.2], [-0.6, 0, 0.8, 4], [0, 0, 0, 1]])
-    camera = edgewise.Camera(world_to_camera, edgewise.intrinsics(k, *SIZE, NEAR, FAR, first_centre=first_centre))
-    random = np.random.default_rng(8)
-    for corners in random.uniform(-1, 1, (20, 3, 3)).astype(np.float32):
-        seen = corners @ world_to_camera[:3, :3].T + world_to_camera[:3, 3]
-        image = seen @ k.T
-        pixels = image[:, :2] / image[:, 2:] + (0.5 - first_centre)
-        check_triangle(camera, corners, pixels, FAR / (FAR - NEAR) * (1 - NEAR / seen[:, 2]))
-
-
-def test_reversed_and_y_down_clip_spaces_are_converted():
-    ours = edgewise.perspective(0.9, ASPECT, NEAR, FAR)
-    of_vulkan = np.diag([1, -1, 1, 1]) @ ours
-    of_reversed = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 1], [0, 0, 0, 1.0]]) @ ours
-    assert np.array_equal(edgewise.projection_from(of_vulkan, y_down=True), ours)
-    assert np.allclose(edgewise.projection_from(of_reversed, reversed=True), ours, rtol=1e-14, atol=1e-15)
+    points = np.random.default_rng(8).uniform((-1, -1, 3), (1, 1, 5), (60, 3))
+    pixels, depth = in_pixels(edgewise.intrinsics(k, *SIZE, NEAR, FAR, first_centre=first_centre), points)
+    image = points @ k.T
+    assert np.allclose(pixels, image[:, :2] / image[:, 2:] + (0.5 - first_centre), atol=1e-9)
+    assert np.allclose(depth, FAR / (FAR - NEAR) * (1 - NEAR / points[:, 2]), atol=1e-12)
 
 
 def test_a_view_needs_a_direction():

@@ -2,7 +2,6 @@
 import pickle
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -19,17 +18,6 @@ SCISSOR = (11, 7, 50, 31)
 def part(plane, rectangle=SCISSOR):
     x, y, width, height = rectangle
     return plane[y:y + height, x:x + width]
-
-
-@pytest.mark.parametrize("ids", [False, True])
-@pytest.mark.parametrize("camera", range(len(CAMERAS)))
-def test_backends_and_threads_draw_the_same(camera, ids):
-    drawn = scene()
-    frames = [drawn.draw(CAMERAS[camera], SIZE, ids=ids, backend=backend, threads=threads)
-              for backend in (*edgewise.BACKENDS, "tiles+spans") for threads in (1, 3)]
-    assert (frames[0].depth < edgewise.DEPTH_CLEAR).any()
-    assert all(same(frames[0], frame) for frame in frames)
-    assert len({edgewise.pixel_hash(frame) for frame in frames}) == 1
 
 
 @pytest.mark.parametrize("draw", [lambda **options: scene().draw(CAMERA, SIZE, **options), lambda **options: stream().draw(**options)])
@@ -60,36 +48,22 @@ def test_one_call_is_a_scene():
     assert ((ids == edgewise.BACKGROUND_ID) == (depth == edgewise.DEPTH_CLEAR)).all()
 
 
-@pytest.mark.parametrize("place, size", [((-2487002.881739342, -4684683.676570751, 3529638.9835389843), 0.017),
-                                         ((512345.678, 5403210.123, 431.987), 300.0)])
-def test_a_mesh_of_doubles_far_from_0_is_drawn_as_one_near_0(place, size):
-    near, indices, colours = triangles()
-    points = size / 2 * near.astype(np.float64)
-    far = np.array(place) + points
-    near_scene = edgewise.Scene((far - far[0]).astype(np.float32), indices, colours=colours)
-    eye = size * np.array([0.2, 0.3, 2])
+def test_a_mesh_of_doubles_far_from_0_is_drawn_as_one_near_0():
+    near, indices, _ = triangles()
+    place = np.array([-2487002.881739342, -4684683.676570751, 3529638.9835389843])
+    far = place + 0.01 * near.astype(np.float64)
 
-    def camera(at):
-        return edgewise.Camera(edgewise.look_at(at + eye, at), edgewise.perspective(0.8, ASPECT, size / 100, 10 * size))
-
-    def almost_same(scene, at):
-        ids, near_ids = (s.draw(camera(p), SIZE, ids=True).payload for s, p in ((scene, at), (near_scene, np.zeros(3))))
-        assert (near_ids != edgewise.BACKGROUND_ID).sum() > 1000
-        return (ids != near_ids).mean() < 0.002  # by the rounding of the camera and the points
-
-    scene = edgewise.Scene(far, indices, colours=colours)
-    assert almost_same(scene, far[0])
-    assert not almost_same(edgewise.Scene(far.astype(np.float32), indices), far[0])
-    for corner, expected in zip(scene.bounds(), (far.min(0), far.max(0))):
-        assert np.abs(corner - expected).max() < 1e-6 * size
-    move = np.eye(4)
-    move[:3, 3] = -far[0]
-    scene.set_instance(0, move)
-    assert almost_same(scene, np.zeros(3))
-    scene.remove_instance(0)
-    scene.set_positions(0, far + 1)
-    scene.add_instance(0)
-    assert almost_same(scene, far[0] + 1)
+    def shown(positions, at, moved=None):
+        drawn = edgewise.Scene(positions, indices)
+        if moved is not None:
+            drawn.set_positions(0, moved)
+        camera = edgewise.Camera(edgewise.look_at(at + [0.01, 0.01, 0.04], at), edgewise.perspective(0.8, ASPECT, 1e-3, 1))
+        return drawn.draw(camera, SIZE, ids=True).payload
+    expected = shown((far - place).astype(np.float32), np.zeros(3))
+    assert (expected != edgewise.BACKGROUND_ID).sum() > 700
+    for ids in (shown(far, place), shown(far[::-1], place, far)):
+        assert (ids != expected).mean() < 0.002  # by the rounding of the camera and the points
+    assert (shown(far.astype(np.float32), place) != expected).mean() > 0.1
 
 
 def test_stats_count_what_is_dropped():
@@ -115,14 +89,10 @@ def test_draws_add_up():
     first, second = edgewise.Scene(a, a_indices, colours=a_colours), edgewise.Scene(b, b_indices, colours=b_colours)
     both = edgewise.Scene(a, a_indices, colours=a_colours)
     both.add_instance(both.add_mesh(b, b_indices, colours=b_colours))
-    frame = first.draw(CAMERA, SIZE)
-    assert second.draw(CAMERA, SIZE, onto=frame) is not None
-    assert same(frame, both.draw(CAMERA, SIZE))
-    stack = first.draw(CAMERAS, SIZE)
-    second.draw(CAMERAS, SIZE, onto=stack, threads=2)
-    assert same(stack, both.draw(CAMERAS, SIZE))
-    ids = second.draw(CAMERA, SIZE, ids=True, first_id=50, onto=first.draw(CAMERA, SIZE, ids=True))
-    assert same(ids, both.draw(CAMERA, SIZE, ids=True)) and (ids.payload[ids.depth < edgewise.DEPTH_CLEAR] >= 50).any()
+    for ids in (False, True):
+        stack = first.draw(CAMERAS, SIZE, ids=ids)
+        second.draw(CAMERAS, SIZE, ids=ids, first_id=50, onto=stack, threads=2)
+        assert same(stack, both.draw(CAMERAS, SIZE, ids=ids))
     alone = second.draw(CAMERA, SIZE, ids=True, first_id=50)
     for values, of_first in zip(second.barycentrics(alone, CAMERA, first_id=50),
                                 second.barycentrics(second.draw(CAMERA, SIZE, ids=True), CAMERA)):
@@ -140,18 +110,12 @@ def test_what_is_drawn_onto_is_returned_and_may_be_cleared():
 
 def test_a_scissor_is_a_crop():
     drawn = scene()
-    whole = drawn.draw(CAMERA, SIZE)
-    frame = drawn.draw(CAMERA, SIZE, scissor=SCISSOR, background=5)
-    expected = np.full((HEIGHT, WIDTH), 5, np.uint32), np.full((HEIGHT, WIDTH), edgewise.DEPTH_CLEAR, np.uint32)
-    for plane, of_whole in zip(expected, drawn.draw(CAMERA, SIZE, background=5)):
-        part(plane)[:] = part(of_whole)
-    assert same(frame, expected)
     other = drawn.draw(CAMERAS[1], SIZE)
-    kept = [plane.copy() for plane in other]
-    drawn.draw(CAMERA, SIZE, onto=other, clear=True, scissor=SCISSOR)
-    for plane, of_whole in zip(kept, whole):
-        part(plane)[:] = part(of_whole)
-    assert same(other, kept)
+    for frame, options in ((drawn.draw(CAMERA, SIZE, background=5, cull="both"), {"background": 5}),
+                           (other, {"onto": edgewise.Frame(other.payload.copy(), other.depth.copy()), "clear": True})):
+        for plane, of_whole in zip(frame, drawn.draw(CAMERA, SIZE, background=options.get("background"))):
+            part(plane)[:] = part(of_whole)
+        assert same(drawn.draw(CAMERA, SIZE, scissor=SCISSOR, **options), frame)
     assert (drawn.draw(CAMERA, SIZE, scissor=(200, 0, 5, 5)).depth == edgewise.DEPTH_CLEAR).all()
 
 
@@ -207,9 +171,11 @@ def test_a_scene_copies_its_input():
     assert same(drawn.draw(CAMERA, SIZE), before)
 
 
-def test_instances_and_vertices_move_and_lights_turn():
-    positions, indices, colours = triangles()
-    moved, placed = edgewise.Scene(positions, indices, colours=colours), edgewise.Scene()
+@pytest.mark.parametrize("count", [60, 1 << 16])  # many have clusters, whose boxes move
+def test_instances_and_vertices_move_and_lights_turn(count):
+    positions, indices, colours = triangles(count)
+    moved, placed = edgewise.Scene(positions + np.float32([0, 0, 9]), indices, colours=colours), edgewise.Scene()
+    moved.set_positions(0, positions)  # before the camera
     placed.add_instance(placed.add_mesh(positions, indices, colours=colours), MOVED)
     assert not same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
     moved.set_instance(0, MOVED)
@@ -217,12 +183,6 @@ def test_instances_and_vertices_move_and_lights_turn():
     moved.add_instance(0)
     assert not same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
     moved.remove_instance(1)
-    assert same(moved.draw(CAMERA, SIZE), placed.draw(CAMERA, SIZE))
-    for drawn in (moved, placed):
-        drawn.set_positions(0, positions[::-1])
-    expected = edgewise.Scene(positions[::-1], indices, colours=colours)
-    expected.set_instance(0, MOVED)
-    assert same(moved.draw(CAMERA, SIZE), expected.draw(CAMERA, SIZE)) and same(placed.draw(CAMERA, SIZE), moved.draw(CAMERA, SIZE))
     moved.set_light((-1, 0.25, 0.5))
     assert not np.array_equal(moved.draw(CAMERA, SIZE).payload, placed.draw(CAMERA, SIZE).payload)
     assert same(moved.draw(CAMERA, SIZE, shade=False), placed.draw(CAMERA, SIZE, shade=False))
@@ -233,19 +193,6 @@ def test_two_sided_triangles_are_not_culled():
     one, two = (edgewise.Scene(positions, indices, two_sided=sides) for sides in (False, True))
     assert same(two.draw(CAMERA, SIZE, ids=True, cull="both"), one.draw(CAMERA, SIZE, ids=True))
     assert (one.draw(CAMERA, SIZE, cull="both").depth == edgewise.DEPTH_CLEAR).all()
-
-
-def test_the_scenes_own_camera_sees_all_of_it():
-    drawn = scene()
-    low, high = drawn.bounds()
-    corners = np.array([[x, y, z, 1] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    camera = drawn.camera(ASPECT)
-    frame = drawn.draw(camera, SIZE, ids=True)
-    assert (frame.depth < edgewise.DEPTH_CLEAR).any()
-    seen = [frame.payload[0], frame.payload[-1], frame.payload[:, 0], frame.payload[:, -1]]
-    assert all((edge == edgewise.BACKGROUND_ID).all() for edge in seen)
-    assert ((corners @ (camera.projection @ camera.view).T)[:, 3] > 0).all()
-    assert np.isinf(edgewise.Scene().bounds()[0]).all()
 
 
 def test_streams_are_drawn_as_their_size_says():
@@ -277,15 +224,3 @@ def test_draws_release_the_gil():
         turns += 1
         time.sleep(0.001)
     assert turns > 10  # held, it is one or two
-
-
-def test_threads_may_share_a_scene():
-    drawn = scene()
-    expected = [drawn.draw(camera, SIZE) for camera in CAMERAS]
-
-    def work(i):
-        frames = [drawn.draw(CAMERAS[i % 3], SIZE, threads=2) for _ in range(20)]
-        drawn.add_mesh(*triangles()[:2])
-        return all(same(frame, expected[i % 3]) for frame in frames)
-    with ThreadPoolExecutor(6) as pool:
-        assert all(pool.map(work, range(6)))

@@ -131,31 +131,13 @@ def test_a_pipe_is_read_when_its_descriptor_is_named():
         os.close(pipe)
 
 
-def handlers():
-    return [line for line in open("/proc/self/status", encoding="ascii") if line.startswith(("SigBlk", "SigIgn", "SigCgt"))]
-
-
-def test_writing_leaves_the_process_as_it_is(tmp_path):
-    before, files = handlers(), os.listdir("/proc/self/fd")
-    edgewise.write_image(tmp_path / "a.png", np.zeros((2, 2), np.uint32))
-    edgewise.write_pfm(tmp_path / "a.pfm", np.zeros((2, 2)))
-    stream().write_tri(tmp_path / "a.tri")
-    with pytest.raises(OSError):
-        edgewise.write_pfm(tmp_path, np.zeros((2, 2)))
-    assert handlers() == before and os.listdir("/proc/self/fd") == files
-
-
 def test_16_bit_grey_comes_back(tmp_path):
-    grey = np.arange(65536, dtype=np.uint16).reshape(256, 256)
-    path = tmp_path / "grey.png"
+    grey, path = np.arange(65536, dtype=np.uint16).reshape(256, 256), tmp_path / "grey.png"
     edgewise.write_image(path, grey)
     back = edgewise.read_image(path)
     assert back.dtype == np.uint16 and np.array_equal(back, grey)
     difference = edgewise.diff(path, grey + np.uint16(1))
     assert (difference.differing, difference.largest, difference.scale) == (65536, 65535, 65535)  # 65535 + 1 is 0
-    assert edgewise.diff(np.full((1, 1), 255, np.uint16), np.full((1, 1), 256, np.uint16)).largest == 1
-    with pytest.raises(OSError, match="png"):
-        edgewise.write_image(tmp_path / "grey.ppm", grey)
 
 
 @pytest.mark.parametrize("dtype", "?bBhilqLQefdFOSUm")
@@ -170,25 +152,11 @@ def test_other_types_are_no_pictures(tmp_path, dtype):
 
 
 def test_floats_of_three_channels(tmp_path):
-    path, other = tmp_path / "a.pfm", tmp_path / "b.pfm"
+    path = tmp_path / "a.pfm"
     values = np.arange(12, dtype=np.float32).reshape(2, 2, 3) / 8
     path.write_bytes(b"PF\n2 2\n-1.0\n" + values[::-1].astype("<f4").tobytes())
     assert np.array_equal(edgewise.read_pfm(path), values)
-    assert edgewise.read_image(path)[0, 0] == 0xFF402000 and edgewise.read_image(path)[1, 1] == 0xFFFFFFFF
-    other.write_bytes(path.read_bytes()[:-4] + b"\0\0\xc0\x7f")  # NaN
-    assert edgewise.diff(path, values).differing == 0 and edgewise.diff(path, other).largest == np.inf
-    assert json.loads(program("diff", path, other, "--json", status=1))["infinite"] is True
-
-
-def test_alpha_is_compared_apart(tmp_path):
-    a = np.zeros((2, 2, 4), np.uint8)
-    b = a.copy()
-    b[0, 1, 3] = 7
-    assert edgewise.diff(a, b).differing == 0 and edgewise.diff(a, b).differing_in_alpha == 1
-    assert edgewise.diff(a, b, [[0, 1], [0, 0]]).differing_in_alpha == 0
-    path = tmp_path / "a.png"
-    edgewise.write_image(path, a)  # without alpha
-    assert edgewise.diff(path, a).differing_in_alpha == 4
+    assert edgewise.diff(path, values).differing == 0 and edgewise.diff(path, np.full_like(values, np.nan)).largest == np.inf
 
 
 def test_a_png_without_its_end_is_a_warning(tmp_path):
@@ -239,6 +207,7 @@ def test_diff_says_what_the_program_says(tmp_path):
     for picture in (colours, colours[..., None].view(np.uint8), colours[..., None].view(np.uint8)[..., :3]):
         assert edgewise.diff(a, b, picture)[:-2] == edgewise.diff(a, b, mask)[:-2]
     assert edgewise.diff(a, a).first is None and edgewise.diff(a, a).differing == 0
+    assert edgewise.diff(a, a ^ np.uint32(0x07000000)).differing_in_alpha == WIDTH * HEIGHT
 
 
 def test_depth_maps_come_back_and_are_compared(tmp_path):
@@ -251,19 +220,6 @@ def test_depth_maps_come_back_and_are_compared(tmp_path):
     assert (difference.differing, difference.first, difference.scale) == (1, (4, 3), 1)
     assert difference.largest == pytest.approx(0.25, abs=1e-6)
     assert edgewise.diff(a, b, np.ones(a.shape)).differing_in_mask == 1
-
-
-def questions(entries):
-    """The program's JSON, in the module's form."""
-    def witness(answer):
-        w = answer.get("witness")
-        return w and (w["frame"], w["x_px"], w["y_px"], tuple(w["right"]), tuple(w["drawn"]))
-    return [(q["question"], q["answer"], q.get("proof"), q["error"],
-             [(a["answer"], witness(a)) for a in q["answers"]]) for q in entries]
-
-
-def ours(found):
-    return [(q.name, q.answer, q.proof, q.error, [(a.name, a.witness and tuple(a.witness)) for a in q.answers]) for q in found]
 
 
 def test_options_reach_the_library(tri):
@@ -282,22 +238,19 @@ def test_needs_of_a_stream_are_the_programs(tri):
     found = stream().needs(threads=2)
     said = json.loads(program("needs", tri, "--json", "--threads", 2))
     assert found.frames == said["frames"] == 1 and found.reach == {}
-    assert ours(found.edges) == questions(said["edges"])
     assert list(found.minima) == said["minima"] and found.closest == (said.get("closest") and tuple(said["closest"].values()))
+    assert len(found.edges) == len(said["edges"])
+    for ours, q in zip(found.edges, said["edges"]):
+        assert (ours.name, ours.answer, ours.proof, ours.error) == (q["question"], q["answer"], q.get("proof"), q["error"])
+        for answer, a in zip(ours.answers, q["answers"]):
+            w = a.get("witness")
+            assert answer.name == a["answer"] and answer.witness == (
+                w and (w["frame"], w["x_px"], w["y_px"], tuple(w["right"]), tuple(w["drawn"])))
+    keys = "level", "mean_px", "worst_px", "hidden_px", "farthest_px"
     assert {stage: [level[:-1] for level in levels] for stage, levels in found.curves.items()} == {
-        curve["stage"]: [tuple(level[key] for key in ("level", "mean_px", "worst_px", "hidden_px", "farthest_px")) for level in curve["levels"]]
-        for curve in said["curves"]}
+        curve["stage"]: [tuple(level[key] for key in keys) for level in curve["levels"]] for curve in said["curves"]}
     ranges = json.loads(program("needs", tri, "--ranges", "--json"))
     assert list(found.edge_value_bits) == ranges["edge_value_bits"]
-
-
-def test_needs_of_a_scene_are_the_programs(obj):
-    drawn = edgewise.Scene.read_obj(obj)
-    size = (48, 32)
-    found = drawn.needs([drawn.camera(48 / 32)] * 2, size, cull="back", threads=2)
-    said = json.loads(program("needs", obj, "--json", "--size", "48x32"))
-    assert found.frames == 2 and set(found.reach) == {"near plane", "far plane", "guard band"}
-    assert list(found.minima) == said["minima"]
 
 
 def test_portable_pixels_of_a_stream_are_the_programs(tri):
@@ -309,12 +262,16 @@ def test_portable_pixels_of_a_stream_are_the_programs(tri):
     assert found.counts["edge"] == (found.reasons == edgewise.lab.UNSTABLE.index("edge")).sum() > 0
 
 
-def test_portable_pixels_of_a_scene_are_nearly_the_programs(obj):
+def test_the_laboratory_says_of_a_scene_what_the_program_says(obj):
     drawn = edgewise.Scene.read_obj(obj)
-    found = drawn.portable(drawn.camera(ASPECT), SIZE, cull="back")
+    needs = drawn.needs([drawn.camera(48 / 32)] * 2, (48, 32), cull="back", threads=2)
+    assert needs.frames == 2 and set(needs.reach) == {"near plane", "far plane", "guard band"}
+    assert list(needs.minima) == json.loads(program("needs", obj, "--json", "--size", "48x32"))["minima"]
+    camera = drawn.camera(ASPECT)
+    found = drawn.portable(camera, SIZE, cull="back")
     said = json.loads(program("portable", obj, "--size", f"{WIDTH}x{HEIGHT}", "--json"))
-    assert abs(found.counts["edge"] - said["reasons"]["edge"]) <= 2
-    ids = drawn.draw(drawn.camera(ASPECT), SIZE, ids=True, cull="back").payload
+    assert abs(found.counts["edge"] - said["reasons"]["edge"]) <= 2  # the program's camera is rounded to float
+    ids = drawn.draw(camera, SIZE, ids=True, cull="back").payload
     masked = edgewise.diff(edgewise.id_colours(ids), edgewise.id_colours(ids + 1), found.reasons)
     unstable = found.reasons.size - found.counts["portable"]
     assert (masked.masked, masked.differing_in_mask) == (unstable, unstable) and unstable > 0

@@ -116,8 +116,10 @@ def test_what_frames_of_other_subpixel_bits_show(bits):
     assert np.array_equal(fractions, drawn.pixels_per_instance(frame) / masks.sum(axis=(1, 2)))
     points = drawn.interpolate(frame, [mesh.positions for mesh in drawn.meshes], CAMERA, **options)
     assert np.array_equal(np.isnan(points).all(axis=-1), frame.depth == edgewise.DEPTH_CLEAR)
-    uv, depth = stream().barycentrics(stream().draw(ids=True, subpixel_bits=bits), subpixel_bits=bits)
-    assert uv.max() <= 1 and depth.min() >= 0
+    frame = stream().draw(ids=True, subpixel_bits=bits)
+    uv, depth = stream().barycentrics(frame, subpixel_bits=bits)
+    seen = frame.depth < edgewise.DEPTH_CLEAR
+    assert uv.max() <= 1 and np.allclose(depth[seen], edgewise.depth01(frame.depth)[seen], atol=1e-6)
 
 
 def test_without_instances():
@@ -142,15 +144,6 @@ def test_an_attribute_has_any_shape_and_type():
     assert np.array_equal(drawn.interpolate(frame, grid, CAMERA)[..., 1, 0], -points, equal_nan=True)
     integers = drawn.interpolate(frame, np.full((len(positions), 1), 7, np.uint8), CAMERA)
     assert set(np.unique(integers[~np.isnan(integers)])) == {7}
-
-
-def test_barycentrics_of_a_stream():
-    drawn = stream()
-    frame = drawn.draw(ids=True)
-    uv, depth = drawn.barycentrics(frame)
-    seen = frame.depth < edgewise.DEPTH_CLEAR
-    assert np.allclose(depth[seen], edgewise.depth01(frame.depth)[seen], atol=1e-6)
-    assert uv[seen].max() <= 1
 
 
 def test_visible_triangles_are_the_unique_ids():
@@ -186,11 +179,6 @@ def test_a_hidden_box_would_not_be_drawn():
     lows = np.array([[-1, -1, 1], [-1, -1, -2], [-1, -1, -1], [99, 0, 0.0]])
     seen = wall.visible(lows, lows + [2, 2, 1], camera, edgewise.Frame(None, frame.depth))
     assert seen.dtype == bool and list(seen) == [True, False, seen[2], False]
-
-
-def test_depth01_reaches_from_near_to_background():
-    depth = np.array([0, edgewise.DEPTH_CLEAR, 128], np.uint32)
-    assert list(edgewise.depth01(depth)) == [0, 1, 0]
 
 
 def test_a_notebook_shows_frames(tmp_path):

@@ -39,7 +39,7 @@ class Cgroups : public ::testing::Test {
   TempDir folder_;
 };
 
-TEST_F(Cgroups, OfVersion2HaveTheLeastQuotaOnTheirPath) {
+TEST_F(Cgroups, HaveTheLeastQuotaOnTheirPath) {
   EXPECT_EQ(quota("0::/\n"), std::numeric_limits<double>::infinity());
   write("a/b", "cpu.max", "max 100000\n");
   EXPECT_EQ(quota("0::/a/b\n"), std::numeric_limits<double>::infinity());
@@ -53,26 +53,10 @@ TEST_F(Cgroups, OfVersion2HaveTheLeastQuotaOnTheirPath) {
   EXPECT_EQ(quota("0::/../../other\n"), 0.5);
 }
 
-TEST_F(Cgroups, OfVersion1HaveTheirQuotaInTheControllersFolder) {
-  constexpr const char* kMembership = "5:memory:/a\n4:cpu,cpuacct:/a/b\n3:cpuset:/c\n0::/d\n";
-  for (const std::string mount : {"cpu", "cpu,cpuacct"}) {
-    write(mount + "/a/b", "cpu.cfs_period_us", "100000\n");
-    write(mount + "/a/b", "cpu.cfs_quota_us", "-1\n");
-    EXPECT_EQ(quota(kMembership), std::numeric_limits<double>::infinity()) << mount;
-    write(mount + "/a/b", "cpu.cfs_quota_us", "300000\n");
-    EXPECT_EQ(quota(kMembership), 3.0) << mount;
-    std::filesystem::remove_all(folder_.path() / mount);
-  }
-  // Other controllers' groups have no quota.
-  write("cpuset/c", "cpu.max", "100000 100000\n");
-  write("memory/a", "cpu.cfs_quota_us", "100000\n");
-  EXPECT_EQ(quota(kMembership), std::numeric_limits<double>::infinity());
-}
-
 TEST_F(Cgroups, ThatCannotBeReadSetNoQuota) {
   EXPECT_EQ(cpu_quota(folder_.path() / "none", folder_.path()), std::numeric_limits<double>::infinity());
   write("a", "cpu.max", "nonsense\n");
-  EXPECT_EQ(quota("0::/a\nno colon\n"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(quota("4:cpu,cpuacct:/a\n0::/a\nno colon\n"), std::numeric_limits<double>::infinity());
 }
 
 // The first core that this process may use, as a list for taskset.

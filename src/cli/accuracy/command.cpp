@@ -32,10 +32,7 @@ int accuracy_command(AccuracyOptions& o) {
   JsonOutput json(o.json);
 
   Progress progress;
-  TimeLeft left;
-  plan.on_progress = [&](double fraction, std::string_view scene) {
-    progress.show(fraction, left.label(fraction, scene));
-  };
+  plan.on_progress = [&](double fraction, std::string_view scene) { progress.show(fraction, scene); };
   const AccuracyReport report = measure_accuracy(plan);
   progress.erase();
 

@@ -52,7 +52,6 @@ int verify_random_command(VerifyOptions& o) {
 
   const nlohmann::json machine = machine_description();  // now: the source tree may change meanwhile
   Progress progress;
-  const TimeLeft left;
   const auto show = [&](const std::string& text) {
     progress.erase();
     if (json.on_stdout())
@@ -66,7 +65,7 @@ int verify_random_command(VerifyOptions& o) {
   plan.on_progress = [&](const randomized::Report& now) {
     const double fraction = now.seconds / plan.seconds;  // 0 without a limit
     progress.show(std::isfinite(plan.seconds) ? std::optional(fraction) : std::nullopt,
-                  left.label(fraction, fmt::format("{} cases, {} differ", now.cases, now.differences)));
+                  fmt::format("{} cases, {} differ", now.cases, now.differences));
   };
   randomized::Report report;
   std::exception_ptr error;

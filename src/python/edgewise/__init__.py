@@ -185,8 +185,8 @@ class _Drawable:
                 raise ValueError(f"onto has the shape {np.shape(frame.depth)}, not {shape}")
             if not clear and frame.depth.dtype.kind == "u" and np.max(frame.depth, initial=0) > DEPTH_CLEAR:
                 raise ValueError("onto has a depth above DEPTH_CLEAR")
-        frame.stats = Stats(**self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth,
-                                                ids, *options, clear or onto is None, scissor, progress))
+        frame.stats = Stats(*self._native.draw(*_check.matrices(cameras), None if depth_only else frame.payload, frame.depth,
+                                               ids, *options, clear or onto is None, scissor, progress))
         frame.has_ids = getattr(onto, "has_ids", None) if depth_only else ids
         frame.subpixel_bits = getattr(onto, "subpixel_bits", None) if depth_only else subpixel_bits
         return frame
