@@ -131,13 +131,7 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
         if (const auto key = key_of(event.key.keysym.sym); key && !panel.press(*key)) session.press(*key);
       break;
     case SDL_KEYUP:
-      if (const auto key = key_of(event.key.keysym.sym)) {
-        panel.release(*key);
-        session.release(*key);
-      }
-      break;
-    case SDL_TEXTINPUT:
-      panel.type(event.text.text);
+      if (const auto key = key_of(event.key.keysym.sym)) session.release(*key);
       break;
     case SDL_MOUSEMOTION:
       point({event.motion.x, event.motion.y}, (event.motion.state & SDL_BUTTON_LMASK) != 0);

@@ -40,16 +40,16 @@ glm::dvec3 centre_of(const Mesh& mesh, std::size_t begin, std::size_t end) {
 std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states) {
   std::vector<FaceState> faces;
   std::size_t id = 0;
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const Mesh& mesh = scene.meshes.at(scene.instances[i].mesh);
-    const glm::dmat4 model = model_matrix(mesh, scene.instances[i]);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const glm::dmat4 model = model_matrix(mesh, instance);
     for (std::size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
       TriangleState state = states[id];
       do {
         state = std::max(state, states[id++]);
       } while (++end < mesh.triangles.size() && mesh.has_flag(end, kSameFace));
       const glm::dvec3 centre(model * glm::dvec4(centre_of(mesh, begin, end), 1.0));
-      faces.push_back({i, centre, state, mesh.has_flag(begin, kTwoSided)});
+      faces.push_back({centre, state, mesh.has_flag(begin, kTwoSided)});
     }
   }
   return faces;
@@ -58,15 +58,6 @@ std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleS
 char letter_of(const FaceState& face) {
   const char letter = letter_of(face.state);
   return face.two_sided && letter != '-' ? static_cast<char>(letter - 'a' + 'A') : letter;
-}
-
-std::string letters_of(std::span<const FaceState> faces) {
-  std::string words;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (i > 0 && faces[i].instance != faces[i - 1].instance) words += ' ';
-    words += letter_of(faces[i]);
-  }
-  return words;
 }
 
 std::string summary_of(std::span<const FaceState> faces) {

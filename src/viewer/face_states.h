@@ -13,7 +13,6 @@
 namespace edgewise::viewer {
 
 struct FaceState {
-  std::size_t instance;
   glm::dvec3 centre;  // in the world
   TriangleState state;
   bool two_sided;
@@ -24,8 +23,6 @@ struct FaceState {
 std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states);
 
 char letter_of(const FaceState& face);  // capital for a two-sided face
-// One word per instance, one letter per face.
-std::string letters_of(std::span<const FaceState> faces);
 // The number of faces of each kind, with its letter.
 std::string summary_of(std::span<const FaceState> faces);
 

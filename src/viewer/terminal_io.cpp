@@ -92,7 +92,8 @@ std::string TerminalPicture::show(const Screen& screen, std::string_view status)
   append_colour(last, 38, kStatus);
   append_colour(last, 48, kBlack);
   for (int x = 0; x < columns; ++x) {
-    const char letter = static_cast<std::size_t>(x) < status.size() ? status[static_cast<std::size_t>(x)] : ' ';
+    const char letter =
+        static_cast<std::size_t>(x) < status.size() ? status[static_cast<std::size_t>(x)] : ' ';
     last += letter >= ' ' && letter <= '~' ? letter : '?';
   }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "edgewise/image.h"
 #include "support/options.h"
@@ -30,12 +29,11 @@ class Panel {
   // Draws the session's picture and the panel. The reference is valid until the next call.
   const Image& show(Session& session, tools::Size window);
 
-  // Input. The first two return whether it is for the panel; if not, it is for the session.
+  // Input. The first two return whether it is for the panel; if not, it is for the session. The panel wants
+  // Escape while a list is open.
   bool press(Key key);
   bool point(Pixel to, bool held);
-  void release(Key key) { released_.push_back(key); }
   void scroll(float lines);
-  void type(const char* utf8);
 
  private:
   ImGuiIO& current_io();                  // makes this panel's context the current one
@@ -48,7 +46,7 @@ class Panel {
   int least_font_px_, font_px_ = 0;
   Image font_, image_;
   int picture_width_px_ = 0;
-  std::vector<Key> released_;  // since the last frame; Dear ImGui sees each press for one frame at least
+  // A released button is so from the second pass on, so that Dear ImGui sees each click.
   bool mouse_released_ = false, began_in_panel_ = false;
 };
 
