@@ -40,8 +40,8 @@ void check_windows(viewer::ShowWindow show_window) {
 }
 
 // Prints the names of the files that the session has saved.
-void print_saved(viewer::Session& session) {
-  for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
+void print_saved(const viewer::Session& session) {
+  for (const std::string& path : session.saved()) print(printable(path) + "\n");
 }
 
 // ---- view

@@ -134,8 +134,6 @@ void Pipeline::draw_composed(const lab::StageMethods& choice, const View& view, 
     picture.stats.culled = triangles.culled;
     picture.stats.emitted = triangles.snapped.size();
   }
-  if (choice.our_clipping() && choice.facing->by_direction)
-    run_without_hidden_faces(*choice.facing, view, picture);
   const VisibleIds visible = visible_ids_of(choice, view, triangles, picture.raster_ms);
   const auto colours = colours_of(view.world.drawable(), view.frontend.shade);
   picture.image = {view.frontend.width, view.frontend.height, {}};
@@ -143,20 +141,6 @@ void Pipeline::draw_composed(const lab::StageMethods& choice, const View& view, 
   for (const std::uint32_t id : visible)
     picture.image.pixels.push_back(id == lab::kNoTriangle ? tools::background_of(Payload::colour)
                                                           : colours[id]);
-}
-
-void Pipeline::run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture) {
-  FrontendOptions options = view.frontend;
-  if (options.cull == Cull::front || options.cull == Cull::both) return;  // the methods drop back faces only
-  const bool drops = std::exchange(options.cull, Cull::none) == Cull::back;
-  const Scene& scene = *view.world.scene();
-  if (drops && (hidden_of_ != &scene || &hidden_->method() != &method)) {
-    hidden_.emplace(scene, method);
-    hidden_of_ = &scene;
-  }
-  picture.frontend_ms = milliseconds([&] {
-    screen_ = frontend_.run(drops ? hidden_->drop(scene) : view.world.drawable(), options, view.execution);
-  });
 }
 
 void Pipeline::outline(const lab::StageMethods& choice, const View& view, Image& image) {

@@ -466,8 +466,4 @@ void Session::save() {
   }
 }
 
-std::vector<std::string> Session::take_saved() {
-  return std::exchange(saved_, {});
-}
-
 }  // namespace edgewise::viewer

@@ -123,9 +123,7 @@ class Session {
   }
   std::span<const Step> steps() const { return start_.steps; }
   const World& world() const { return *world_; }
-  // The names of the files saved since the last take_saved().
-  const std::vector<std::string>& saved() const { return saved_; }
-  std::vector<std::string> take_saved();
+  const std::vector<std::string>& saved() const { return saved_; }  // files' names
 
  private:
   void act(Command command);

@@ -364,10 +364,9 @@ TEST(Viewer, SavedStreamsRenderTheSamePictureAndReplaceNoFile) {
   folder.write("test-0002.tri", "older");
   Session session = session_into(folder.path(), "cubes");
   type(session, "w<left>p");
-  const auto saved = session.take_saved();
+  const auto saved = session.saved();
   ASSERT_EQ(saved,
             (std::vector<std::string>{folder.path() / "test-0003.png", folder.path() / "test-0003.tri"}));
-  EXPECT_TRUE(session.take_saved().empty());
   EXPECT_EQ(file_content(folder.path() / "test-0001.png"), "older");
   EXPECT_EQ(folder.count(), 4u);
   const Image picture = read_image(saved[0]);
@@ -380,7 +379,7 @@ TEST(Viewer, ReportsAFailedSave) {
   Session session = session_into("/proc/none", "cube");
   type(session, "p");
   EXPECT_NE(session.state().message.find("not saved"), std::string::npos);
-  EXPECT_TRUE(session.take_saved().empty());
+  EXPECT_TRUE(session.saved().empty());
 }
 
 // Three quads (a front face, a back face, one behind the camera) and a floor that passes below the camera.
