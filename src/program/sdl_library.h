@@ -16,9 +16,7 @@ namespace edgewise::viewer {
   X(DestroyWindow)                  \
   X(FreeSurface)                    \
   X(GetCurrentVideoDriver)          \
-  X(GetDisplayDPI)                  \
   X(GetError)                       \
-  X(GetWindowDisplayIndex)          \
   X(GetWindowSurface)               \
   X(Init)                           \
   X(PollEvent)                      \

@@ -1,7 +1,6 @@
 // The SDL window: passes events to the panel or the session, and shows their pictures.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -88,15 +87,6 @@ class Window {
     sdl().SetWindowMinimumSize(window_.get(), 64, 48);
   }
 
-  // The height of legible text on the window's display.
-  int font_px() const {
-    constexpr float kUsual_dpi = 96.0f;
-    float dpi = 0.0f;
-    const int display = sdl().GetWindowDisplayIndex(window_.get());
-    if (display < 0 || sdl().GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0) return Panel::kFont_px;
-    return std::max(static_cast<int>(std::lround(Panel::kFont_px * dpi / kUsual_dpi)), Panel::kFont_px);
-  }
-
   void show(Session& session, Panel& panel) {
     SDL_Surface* const surface = sdl().GetWindowSurface(window_.get());
     if (surface == nullptr) fail("cannot draw into the window");
@@ -158,7 +148,7 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
 void show_sdl_window(Session& session, const WindowOptions& options) {
   const Sdl started;
   Window window(options);
-  Panel panel(window.font_px());
+  Panel panel;
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
     if (session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);

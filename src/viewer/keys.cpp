@@ -45,7 +45,6 @@ std::span<const KeyRow> key_table() {
       {"3 4", "move slower, faster", {{'3', slower}, {'4', faster}}},
       {"0", "reset camera and rotation", {{'0', home}}},
       {"r", "start, stop rotating the objects", {{'r', spin}}},
-      {", .", "rotate the objects by hand", {{',', turn_back}, {'.', turn_on}}},
       {"b", "next backend or coverage method", {{'b', coverage}}},
       {"y", "edges only or filled", {{'y', edges}}},
       {"x", "next clipping method", {{'x', clipping}}},

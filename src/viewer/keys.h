@@ -32,7 +32,7 @@ constexpr Key key_of(char c) {
 enum class Command : std::uint8_t {
   // Act while the key is held; in the order of Session::move():
   forwards, backwards, step_left, step_right, rise, sink,
-  look_up, look_down, look_left, look_right, turn_back, turn_on,
+  look_up, look_down, look_left, look_right,
   // Act once per key press, and change the picture:
   home, spin,
   coverage, edges, clipping, visibility, facing, cull_front, cull_back, light, switch_back,
@@ -44,7 +44,7 @@ enum class Command : std::uint8_t {
 };
 // clang-format on
 constexpr bool is_held(Command command) {
-  return command <= Command::turn_on;
+  return command <= Command::look_right;
 }
 
 struct Binding {

@@ -139,10 +139,8 @@ void Session::move(Command command, float seconds) {
   const int i = static_cast<int>(command), first_look = static_cast<int>(Command::look_up);
   if (command <= Command::sink)
     viewer::move(world_->camera(), distance * kDirections[i], state_.along_view);
-  else if (command <= Command::look_right)
-    look(world_->camera(), turn * kLooks[i - first_look].x, turn * kLooks[i - first_look].y);
   else
-    state_.angle += (command == Command::turn_on ? kTurnPerSecond : -kTurnPerSecond) * seconds;
+    look(world_->camera(), turn * kLooks[i - first_look].x, turn * kLooks[i - first_look].y);
 }
 
 void Session::act(Command command) {

@@ -53,7 +53,7 @@ class Shown {
   Session& session() { return session_; }
   Panel& panel() { return panel_; }
   const Image& image() const { return image_; }
-  int panel_left() const { return window_.width - panel_.width_px(window_); }
+  int panel_left() const { return window_.width - Panel::width_px(window_); }
 
  private:
   tools::Size window_;
@@ -224,12 +224,10 @@ TEST(Panel, OfReproducibleSessionsIsTheSameOnAllTargetsAndThreads) {
     }
 }
 
-TEST(Panel, FontGrowsWithTheWindowAndTheDisplay) {
-  const Panel usual, dense(2 * Panel::kFont_px);
-  EXPECT_EQ(dense.width_px({1920, 720}), 2 * usual.width_px({1280, 720}));
-  EXPECT_EQ(usual.width_px({3840, 2160}), 2 * usual.width_px({1920, 1080}));
-  for (const int width : {700, 1000, 1280}) EXPECT_LE(dense.width_px({width, 720}), width / 2);
-  EXPECT_EQ(usual.width_px({600, 400}), 0);
+TEST(Panel, FontGrowsWithTheWindow) {
+  EXPECT_EQ(Panel::width_px({3840, 2160}), 2 * Panel::width_px({1920, 1080}));
+  for (const int width : {700, 1000, 1280}) EXPECT_LE(Panel::width_px({width, 2160}), width / 2);
+  EXPECT_EQ(Panel::width_px({600, 400}), 0);
 }
 
 // Whole pixels, blended once each, the shared edge of a rectangle's two triangles included.

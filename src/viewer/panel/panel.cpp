@@ -102,6 +102,15 @@ void show_grid(const Image& image, float square) {
                std::floor(square / 8.0f));
 }
 
+constexpr int kFont_px = 13;  // the height for which Dear ImGui's font is made
+
+// A high window gets a larger font, and a narrow one a smaller font; 0: no room.
+int font_px(tools::Size window) {
+  constexpr int kLines = 1080 / 16;  // of text in a high window
+  const int px = std::min(std::max(window.height / kLines, kFont_px), window.width / (2 * kPanelWidth));
+  return px < kFont_px ? 0 : px;
+}
+
 struct Entry {
   std::string name;
   std::string_view summary{};
@@ -387,7 +396,6 @@ class Panel::Contents {
     };
     text(kPlain, "camera {:.2f} {:.2f} {:.2f}, yaw {}, pitch {}", c.position.x, c.position.y, c.position.z,
          degrees(c.yaw), degrees(c.pitch));
-    text(kFaint, "[w a s d] [space] [shift] move\n[arrows] or drag: look around");
     choice("move along", 'm', {{"world axes"}, {"camera axes"}}, state().along_view ? 1 : 0);
     button("[3] slower", key_of('3'));
     button_beside("[4] faster", key_of('4'));
@@ -396,8 +404,6 @@ class Panel::Contents {
     toggle("rotate", 'r', state().spinning);
     text(kPlain, "{} degrees about {:.2f} {:.2f} {:.2f}", degrees(state().angle), axis.x, axis.y, axis.z);
     button("[0] reset", key_of('0'));
-    ImGui::SameLine();
-    text(kFaint, "[,] [.] by hand");
   }
 
   void help() {
@@ -421,10 +427,7 @@ class Panel::Contents {
   Magnifier magnifier_;
 };
 
-Panel::Panel(int least_font_px)
-    : context_(ImGui::CreateContext()),
-      contents_(std::make_unique<Contents>()),
-      least_font_px_(least_font_px) {
+Panel::Panel() : context_(ImGui::CreateContext()), contents_(std::make_unique<Contents>()) {
   ImGuiIO& io = current_io();
   io.IniFilename = io.LogFilename = nullptr;
   io.BackendFlags = ImGuiBackendFlags_RendererHasVtxOffset;
@@ -439,13 +442,7 @@ ImGuiIO& Panel::current_io() {
   return ImGui::GetIO();
 }
 
-int Panel::font_px(tools::Size window) const {
-  constexpr int kLines = 1080 / 16;  // of text in a high window
-  const int px = std::min(std::max(window.height / kLines, least_font_px_), window.width / (2 * kPanelWidth));
-  return px < kFont_px ? 0 : px;
-}
-
-int Panel::width_px(tools::Size window) const {
+int Panel::width_px(tools::Size window) {
   return font_px(window) * kPanelWidth;
 }
 
