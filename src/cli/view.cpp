@@ -56,19 +56,14 @@ struct ViewOptions {
   bool terminal = false;
 };
 
-// `first` is the shot that view() has already loaded; it is used once, unless the size has changed meanwhile.
+// Only built-in streams are loaded again, at every size: they fill the picture.
 viewer::Session make_session(const ViewOptions& o, Shot first) {
   viewer::Start start;
-  start.load = [&o, kept = std::make_shared<std::optional<Shot>>(std::move(first))](Size size) {
+  start.load = [&o, first = std::make_shared<Shot>(std::move(first))](Size size) {
+    if (!first->source.stream || first->source.built_in == nullptr) return std::move(*first);
     SceneOptions sized = o.options;
     sized.size = size;
-    const bool fits =
-        *kept && ((*kept)->source.built_in == nullptr || !(*kept)->source.stream ||
-                  ((*kept)->frontend.width == size.width && (*kept)->frontend.height == size.height));
-    if (!fits) return load_shot(o.scene, sized, o.options.time.value_or(0.0));
-    Shot shot = std::move(**kept);
-    kept->reset();
-    return shot;
+    return load_shot(o.scene, sized, o.options.time.value_or(0.0));
   };
   start.choice = o.choice;
   start.execution = o.execution.execution;

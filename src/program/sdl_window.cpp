@@ -1,14 +1,17 @@
 // The SDL window: passes events to the panel or the session, and shows their pictures.
+#include <SDL.h>
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "edgewise/contract.h"
-#include "program/sdl_library.h"
 #include "viewer/panel/panel.h"
 #include "viewer/session.h"
 #include "viewer/window.h"
@@ -23,33 +26,40 @@ constexpr auto kFrame = std::chrono::microseconds(1'000'000 / 60);
 constexpr int kIdle_ms = 100;            // between frames while nothing happens
 constexpr double kLongestStep_s = 0.25;  // limits the jump of movement after a long frame
 
-const SdlLibrary& sdl() {
-  static const SdlLibrary library;
-  return library;
+// SDL is loaded only when a window opens: linking it would slow down every start of the program several
+// times. It stays loaded, because its drivers may leave threads and handlers behind.
+void* sdl_function(const char* name) {
+  static void* const library = dlopen("libSDL2-2.0.so.0", RTLD_NOW | RTLD_LOCAL);  // of every SDL 2 version
+  void* const function = library == nullptr ? nullptr : dlsym(library, name);
+  if (function == nullptr)
+    throw std::runtime_error(std::string("cannot open a window: ") + dlerror() +
+                             "; --terminal works without one");
+  return function;
 }
+#define EDGEWISE_CALL(name) (reinterpret_cast<decltype(&SDL_##name)>(sdl_function("SDL_" #name)))
 
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(std::string(what) + ": " + sdl().GetError() +
+  throw std::runtime_error(std::string(what) + ": " + EDGEWISE_CALL(GetError)() +
                            "; --terminal works without a window");
 }
 
 struct Sdl {
   Sdl() {
-    sdl().SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
-    sdl().SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    EDGEWISE_CALL(SetHint)(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
+    EDGEWISE_CALL(SetHint)(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     // Copies pixels without OpenGL, which is slower than the drawing where there is no GPU.
-    sdl().SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("cannot open a window");
+    EDGEWISE_CALL(SetHint)(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    if (EDGEWISE_CALL(Init)(SDL_INIT_VIDEO) != 0) fail("cannot open a window");
     // Without a display SDL falls back to drivers that show nothing.
-    const std::string_view driver = sdl().GetCurrentVideoDriver();
+    const std::string_view driver = EDGEWISE_CALL(GetCurrentVideoDriver)();
     const char* const asked_for = std::getenv("SDL_VIDEODRIVER");
     if ((asked_for == nullptr || *asked_for == 0) &&
         (driver == "offscreen" || driver == "dummy" || driver == "evdev")) {
-      sdl().Quit();
+      EDGEWISE_CALL(Quit)();
       throw std::runtime_error("cannot open a window: there is no display; --terminal works without one");
     }
   }
-  ~Sdl() { sdl().Quit(); }
+  ~Sdl() { EDGEWISE_CALL(Quit)(); }
   Sdl(const Sdl&) = delete;
   Sdl& operator=(const Sdl&) = delete;
 };
@@ -80,28 +90,29 @@ std::optional<Key> key_of(SDL_Keycode code) {
 class Window {
  public:
   explicit Window(const WindowOptions& o)
-      : window_(sdl().CreateWindow(o.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                   o.size.width, o.size.height, SDL_WINDOW_RESIZABLE),
-                sdl().DestroyWindow) {
+      : window_(EDGEWISE_CALL(CreateWindow)(o.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                                            o.size.width, o.size.height, SDL_WINDOW_RESIZABLE),
+                EDGEWISE_CALL(DestroyWindow)) {
     if (!window_) fail("cannot open a window");
-    sdl().SetWindowMinimumSize(window_.get(), 64, 48);
+    EDGEWISE_CALL(SetWindowMinimumSize)(window_.get(), 64, 48);
   }
 
   void show(Session& session, Panel& panel) {
-    SDL_Surface* const surface = sdl().GetWindowSurface(window_.get());
+    SDL_Surface* const surface = EDGEWISE_CALL(GetWindowSurface)(window_.get());
     if (surface == nullptr) fail("cannot draw into the window");
     const tools::Size size{std::clamp(surface->w, 1, contract::kMaxImageSide),
                            std::clamp(surface->h, 1, contract::kMaxImageSide)};
     const Image& image = panel.show(session, size);
     const std::unique_ptr<SDL_Surface, decltype(&SDL_FreeSurface)> picture(
-        sdl().CreateRGBSurfaceWithFormatFrom(const_cast<std::uint32_t*>(image.pixels.data()), size.width,
-                                             size.height, 32, size.width * 4, SDL_PIXELFORMAT_ABGR8888),
-        sdl().FreeSurface);
+        EDGEWISE_CALL(CreateRGBSurfaceWithFormatFrom)(const_cast<std::uint32_t*>(image.pixels.data()),
+                                                      size.width, size.height, 32, size.width * 4,
+                                                      SDL_PIXELFORMAT_ABGR8888),
+        EDGEWISE_CALL(FreeSurface));
     if (!picture) fail("cannot draw into the window");
-    sdl().SetSurfaceBlendMode(picture.get(), SDL_BLENDMODE_NONE);
+    EDGEWISE_CALL(SetSurfaceBlendMode)(picture.get(), SDL_BLENDMODE_NONE);
     // Failures are ignored: the window has just changed size, and the next frame gets its new surface.
-    sdl().UpperBlit(picture.get(), nullptr, surface, nullptr);
-    sdl().UpdateWindowSurface(window_.get());
+    EDGEWISE_CALL(UpperBlit)(picture.get(), nullptr, surface, nullptr);
+    EDGEWISE_CALL(UpdateWindowSurface)(window_.get());
   }
 
  private:
@@ -151,16 +162,17 @@ void show_sdl_window(Session& session, const WindowOptions& options) {
   Panel panel;
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
-    if (session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
+    if (session.still()) EDGEWISE_CALL(WaitEventTimeout)(nullptr, kIdle_ms);
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - last).count();
     last = now;
-    for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, panel, session);
+    for (SDL_Event event; open && EDGEWISE_CALL(PollEvent)(&event) != 0;)
+      open = handle(event, panel, session);
     session.advance(std::min(passed, kLongestStep_s));
     window.show(session, panel);
     open = open && !session.done();  // the panel has a button for it
-    if (const auto left = kFrame - (Clock::now() - now); left.count() > 0)
-      sdl().Delay(static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
+    if (const auto left = kFrame - (Clock::now() - now); left.count() > 0) EDGEWISE_CALL(Delay)
+    (static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }
 }
 

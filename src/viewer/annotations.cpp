@@ -1,10 +1,8 @@
 #include "viewer/annotations.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
-#include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "frontend/view.h"
 #include "viewer/world.h"
@@ -60,36 +58,6 @@ Image around(const Image& image, int left, int right, Pixel focus, int reach) {
                          static_cast<std::size_t>(u)];
     }
   return part;
-}
-
-std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel) {
-  std::vector<TriangleOfPixel> found;
-  const int x0 = pixel.x * contract::kPixel_q15, y0 = pixel.y * contract::kPixel_q15;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const ScreenTriangle& t = triangles[i];
-    const auto [min_x, max_x] = std::minmax({t.x_q15[0], t.x_q15[1], t.x_q15[2]});
-    const auto [min_y, max_y] = std::minmax({t.y_q15[0], t.y_q15[1], t.y_q15[2]});
-    const contract::Oriented o = contract::orient(t);
-    if (max_x < x0 || max_y < y0 || min_x > x0 + contract::kPixel_q15 || min_y > y0 + contract::kPixel_q15 ||
-        o.area == 0)
-      continue;
-    TriangleOfPixel of{i, t.payload, {}, contract::depth01(contract::make_depth(o).at(pixel.x, pixel.y))};
-    bool reaches = true;
-    for (int k = 0; k < 3; ++k) {
-      const contract::Edge edge = contract::make_edge(o, k);
-      const std::int64_t value = edge.at(pixel.x, pixel.y);
-      // The most that the value grows between the sample and a corner of the pixel.
-      const std::int64_t growth =
-          std::int64_t{contract::kHalf_q15} * (std::int64_t{std::abs(edge.a)} + std::abs(edge.b));
-      reaches = reaches && value + growth > 0;
-      of.edges[static_cast<std::size_t>(k)] = value;
-    }
-    if (reaches) found.push_back(of);
-  }
-  std::ranges::stable_sort(found, {}, [](const TriangleOfPixel& t) {
-    return std::pair(!t.covers(), t.covers() ? t.depth01 : 0.0);
-  });
-  return found;
 }
 
 std::size_t vertex_count(const Scene& scene) {

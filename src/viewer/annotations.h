@@ -1,8 +1,7 @@
 // Additions to a picture: tinted errors, outlines, labels in the scene. For the magnifier: the pixels around
-// one, and the triangles that reach it.
+// one.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -49,17 +48,6 @@ void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std
 // The pixels around `focus`, `reach` to each side; black outside the picture's columns left … right - 1. All
 // have the alpha 255.
 Image around(const Image& image, int left, int right, Pixel focus, int reach);
-
-// A triangle that reaches into a pixel.
-struct TriangleOfPixel {
-  std::size_t index;                  // in the front end's output
-  std::uint32_t colour;               // its payload
-  std::array<std::int64_t, 3> edges;  // at the sample, in sub-units squared (rule 4); all >= 0: covers it
-  double depth01;                     // of its plane at the sample
-  bool covers() const { return (edges[0] | edges[1] | edges[2]) >= 0; }
-};
-// Those that cover the sample come first, the nearest of them first.
-std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel);
 
 // Copies `from` to the columns of `into` from `left` on. They must have room for it.
 void paste(const Image& from, int left, Image& into);

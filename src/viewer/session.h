@@ -117,10 +117,6 @@ class Session {
   int left_of(std::size_t side) const { return side == 0 ? 0 : screen_.picture.width - side_size_.width; }
   // What the magnifier shows, in one side's picture.
   Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }
-  // The front end's output for the last picture of a side.
-  std::span<const ScreenTriangle> triangles(std::size_t side) const {
-    return pipelines_[side].screen_triangles();
-  }
   std::span<const Step> steps() const { return start_.steps; }
   const World& world() const { return *world_; }
   const std::vector<std::string>& saved() const { return saved_; }  // files' names

@@ -173,15 +173,11 @@ TEST(Panel, CountsErrorsByKindBesideTheirColours) {
   EXPECT_FALSE(shown.says("nothing drawn"));
 }
 
-TEST(Panel, ListsTheTrianglesOfTheMagnifiedPixel) {
+TEST(Panel, MagnifiesThePixelUnderThePointer) {
   Shown shown(session_of("cubes"));
-  EXPECT_FALSE(shown.says("triangles touch it"));
-  const Session& session = shown.type("g");
-  const auto found = triangles_of(session.triangles(0), session.focus());
-  ASSERT_GT(found.size(), 1u);
-  EXPECT_TRUE(shown.says(std::to_string(found.size()) + " triangles touch it"));
-  const auto& edges = found.front().edges;
-  EXPECT_TRUE(shown.says(fmt::format(" {} {} {}\n", edges[0], edges[1], edges[2])));
+  shown.type("g");
+  shown.point({12, 34}, false);
+  EXPECT_TRUE(shown.says("pixel 12, 34"));
 }
 
 TEST(Panel, ListsADemosStepsAndGoesToThem) {

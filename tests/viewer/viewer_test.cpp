@@ -215,28 +215,6 @@ TEST(Annotations, MagnifiesThePixelsAroundAFocusOfOnePicture) {
                                                      rgb(6, 6, 6), rgb(7, 7, 7), none}));
 }
 
-// Against the picture: the first one listed is visible, if it covers the sample.
-TEST(Annotations, ListsTheTrianglesOfAPixelNearestFirst) {
-  Session session = session_of("cubes");
-  const Image picture = type(session, "k").picture;  // unlit: a payload is a face's colour
-  const std::span<const ScreenTriangle> triangles = session.triangles(0);
-  std::uint64_t covered = 0, only_touched = 0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const std::vector<TriangleOfPixel> found = triangles_of(triangles, {x, y});
-      const std::uint32_t shown =
-          picture.pixels[static_cast<std::size_t>(y * picture.width + x)] | 0xFF000000u;
-      const bool covers = !found.empty() && found.front().covers();
-      EXPECT_EQ(shown, covers ? found.front().colour | 0xFF000000u : rgb(0, 0, 0)) << x << ", " << y;
-      covered += covers;
-      only_touched += !found.empty() && !found.back().covers();
-      for (std::size_t i = 1; i < found.size(); ++i)
-        EXPECT_FALSE(found[i].covers() && !found[i - 1].covers()) << "covering ones first";
-    }
-  EXPECT_EQ(covered, session.side(0).judgement->covered);
-  EXPECT_GT(only_touched, 100u);
-}
-
 TEST(Viewer, LooksAroundByDragOrArrows) {
   Session session = session_of("cube");
   const Image home = type(session, "").picture;
@@ -301,8 +279,8 @@ TEST(Viewer, TurnsObjects) {
   const Image home = type(session, "").picture;
   EXPECT_NE(type(session, "r<1>").picture.pixels, home.pixels);
   EXPECT_GT(session.state().angle, 0.5f);
-  EXPECT_EQ(type(session, "0").picture.pixels, home.pixels);
-  type(session, "<1>");
+  EXPECT_EQ(type(session, "r0").picture.pixels, home.pixels);
+  type(session, "r<1>");
   const glm::mat4 model = model_matrix({}, session.world().scene()->instances[0]);
   EXPECT_NEAR(glm::length(glm::vec3(model[3])), 0.0f, 1e-5f) << "the cube's centre stays in place";
   EXPECT_NEAR(glm::determinant(glm::mat3(model)), 1.0f, 1e-5f);

@@ -84,7 +84,6 @@ const char* prefix(const Session& session, std::size_t side) {
 
 constexpr int kReach = 7;  // pixels to each side
 constexpr int kAcross = 2 * kReach + 1;
-constexpr std::size_t kMostTriangles = 6;  // listed
 
 // An image's pixels as squares of a grid, with a frame around the middle one.
 void show_grid(const Image& image, float square) {
@@ -118,61 +117,14 @@ struct Entry {
 
 }  // namespace
 
-// The magnifier: the pixels around the session's focus, and the triangles that reach it.
-class Magnifier {
- public:
-  // Finds the triangles, of the active side where both are shown. Once per picture.
-  void look(const Session& session) {
-    side_ = views(session) == 2 ? session.state().active : 0;
-    triangles_ = triangles_of(session.triangles(side_), session.focus());
-  }
-
-  // What was laid out refers to images of this object until it is painted.
-  void lay_out(const Session& session) {
-    const Pixel focus = session.focus();
-    const float room = (kPanelWidth - 3) * em() / static_cast<float>(views(session));
-    for (std::size_t i = 0; i < views(session); ++i) {
-      const int left = session.left_of(i);
-      zoomed_[i] = around(session.picture(), left, left + session.side_size().width, focus, kReach);
-      if (i > 0) ImGui::SameLine();
-      show_grid(zoomed_[i], std::floor(std::min(room / kAcross, 0.8f * em())));
-    }
-    text(kStrong, "pixel {}, {}; {}{}", focus.x, focus.y, prefix(session, side_),
-         triangles_.size() == 1 ? "1 triangle touches it"
-                                : fmt::format("{} triangles touch it", triangles_.size()));
-    if (triangles_.empty()) return;
-    text(kFaint, "number, depth, edge values in 1/65536 px²");
-    const std::size_t listed = std::min(triangles_.size(), kMostTriangles);
-    for (const TriangleOfPixel& t : std::span(triangles_).first(listed)) {
-      swatch(t.colour);
-      text(t.covers() ? kPlain : kFaint, "#{} {} {} {} {}", t.index,
-           t.covers() ? fmt::format("{:.6f}", t.depth01) : "misses", t.edges[0], t.edges[1], t.edges[2]);
-    }
-    if (triangles_.size() > listed) text(kPlain, "and {} more", triangles_.size() - listed);
-  }
-
- private:
-  static std::size_t views(const Session& session) {
-    return session.state().arrangement == Arrangement::side_by_side ? 2 : 1;
-  }
-
-  std::size_t side_ = 0;
-  std::vector<TriangleOfPixel> triangles_;
-  std::array<Image, 2> zoomed_;
-};
-
 // The widgets, and what they keep from frame to frame. A widget presses the key that it shows.
 class Panel::Contents {
  public:
-  // Once per picture.
-  void prepare(Session& session) {
-    session_ = &session;
-    if (state().magnifier) magnifier_.look(session);
-  }
   // Whether a widget changed the session since the last call.
   bool take_changed() { return std::exchange(changed_, false); }
 
-  void lay_out() {
+  void lay_out(Session& session) {
+    session_ = &session;
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({window.x - kPanelWidth * em(), 0.0f});
     ImGui::SetNextWindowSize({kPanelWidth * em(), window.y});
@@ -341,7 +293,17 @@ class Panel::Contents {
     if (!section("Magnifier")) return;
     toggle("at pointer", 'g', state().magnifier);
     button_beside("[enter] wrong pixel", Key::enter);
-    if (state().magnifier) magnifier_.lay_out(*session_);
+    if (!state().magnifier) return;
+    const Pixel focus = session_->focus();
+    const std::size_t views = state().arrangement == Arrangement::side_by_side ? 2 : 1;
+    const float room = (kPanelWidth - 3) * em() / static_cast<float>(views);
+    for (std::size_t i = 0; i < views; ++i) {
+      const int left = session_->left_of(i);
+      zoomed_[i] = around(session_->picture(), left, left + session_->side_size().width, focus, kReach);
+      if (i > 0) ImGui::SameLine();
+      show_grid(zoomed_[i], std::floor(std::min(room / kAcross, 0.8f * em())));
+    }
+    text(kStrong, "pixel {}, {}", focus.x, focus.y);
   }
 
   void times() {
@@ -424,7 +386,7 @@ class Panel::Contents {
   Session* session_ = nullptr;
   bool changed_ = false;
   float footer_height_ = 0.0f;
-  Magnifier magnifier_;
+  std::array<Image, 2> zoomed_;  // the magnifier's, until they are painted
 };
 
 Panel::Panel() : context_(ImGui::CreateContext()), contents_(std::make_unique<Contents>()) {
@@ -481,13 +443,9 @@ const Image& Panel::show(Session& session, tools::Size window) {
   set_font(std::max(font_px(window), kFont_px));
   const int width = width_px(window);
   const Screen& screen = session.draw(window, width);
-  contents_->prepare(session);
   // The layout settles in the second pass. The third one shows what a click changed.
   for (int pass = 0; pass < 3; ++pass) {
-    if (contents_->take_changed()) {
-      session.draw(window, width);
-      contents_->prepare(session);
-    }
+    if (contents_->take_changed()) session.draw(window, width);
     ImGui::NewFrame();
     if (std::exchange(mouse_released_, false)) io.MouseDown[0] = false;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -498,7 +456,7 @@ const Image& Panel::show(Session& session, tools::Size window) {
       list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, rgb(20, 20, 20) & 0xA0FFFFFFu);
       list.AddText(at, label.colour, label.words.c_str());
     }
-    if (session.state().panel && width > 0) contents_->lay_out();
+    if (session.state().panel && width > 0) contents_->lay_out(session);
     ImGui::Render();
   }
   image_ = {window.width, window.height, std::move(image_.pixels)};
