@@ -1,9 +1,11 @@
 #include "viewer/annotations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <utility>
 
-#include "edgewise/frontend.h"
 #include "frontend/view.h"
 #include "viewer/world.h"
 
@@ -60,6 +62,64 @@ Image around(const Image& image, int left, int right, Pixel focus, int reach) {
   return part;
 }
 
+namespace {
+
+struct Kind {
+  TriangleState state;
+  char letter;
+  std::string_view name;
+  std::uint32_t colour = rgb(150, 170, 190);
+};
+// The last kind stands for all rare states.
+constexpr std::array kKinds{Kind{TriangleState::active, 'a', "active", rgb(255, 255, 255)},
+                            Kind{TriangleState::clipped, 'c', "clipped", rgb(255, 210, 60)},
+                            Kind{TriangleState::culled, 'b', "culled by facing"},
+                            Kind{TriangleState::outside, 'o', "outside"},
+                            Kind{TriangleState::outside_with_mesh, '-', "culled with their object or part"},
+                            Kind{TriangleState::not_finite, 'x', "not drawable"}};
+
+const Kind& kind_of(const FaceState& face) {
+  const auto kind = std::ranges::find(kKinds, face.state, &Kind::state);
+  return kind == kKinds.end() ? kKinds.back() : *kind;
+}
+
+// The mean of the corners of triangles begin … end - 1.
+glm::dvec3 centre_of(const Mesh& mesh, std::size_t begin, std::size_t end) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t t = begin; t < end; ++t)
+    for (int k = 0; k < 3; ++k) sum += glm::dvec3(mesh.positions[mesh.triangles[t][k]]);
+  return sum / static_cast<double>(3 * (end - begin));
+}
+
+}  // namespace
+
+std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states) {
+  std::vector<FaceState> faces;
+  std::size_t id = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const glm::dmat4 model = model_matrix(mesh, instance);
+    for (std::size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
+      TriangleState state = states[id];
+      do {
+        state = std::max(state, states[id++]);
+      } while (++end < mesh.triangles.size() && mesh.has_flag(end, kSameFace));
+      const glm::dvec3 centre(model * glm::dvec4(centre_of(mesh, begin, end), 1.0));
+      faces.push_back({centre, state, mesh.has_flag(begin, kTwoSided)});
+    }
+  }
+  return faces;
+}
+
+std::string summary_of(std::span<const FaceState> faces) {
+  std::string text;
+  for (const Kind& kind : kKinds) {
+    const auto count = std::ranges::count(faces, &kind, [](const FaceState& face) { return &kind_of(face); });
+    if (count > 0) text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", kind.letter, count, kind.name);
+  }
+  return text + (std::ranges::any_of(faces, &FaceState::two_sided) ? "; capitals: two-sided" : "");
+}
+
 std::size_t vertex_count(const Scene& scene) {
   std::size_t vertices = 0;
   for (const Instance& instance : scene.instances)
@@ -76,11 +136,6 @@ void add_label(const View& view, glm::dvec3 world, const Strip& strip, std::stri
   const double x = p.x / p.z, y = p.y / p.z;
   if (p.z >= view.volume.near_z && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
     labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
-}
-
-std::uint32_t colour_of(TriangleState state) {
-  if (state == TriangleState::active) return rgb(255, 255, 255);
-  return state == TriangleState::clipped ? rgb(255, 210, 60) : rgb(150, 170, 190);
 }
 
 }  // namespace
@@ -101,8 +156,12 @@ void add_face_letters(const Camera& camera, std::span<const FaceState> faces, co
                       std::vector<Label>& labels) {
   if (faces.size() > kMostLabels) return;
   const View view(camera, strip.width, strip.height);
-  for (const FaceState& face : faces)
-    add_label(view, face.centre, strip, {letter_of(face)}, colour_of(face.state), labels);
+  for (const FaceState& face : faces) {
+    const auto& [state, letter, name, colour] = kind_of(face);
+    const bool capital = face.two_sided && letter != '-';
+    add_label(view, face.centre, strip, {capital ? static_cast<char>(letter - 'a' + 'A') : letter}, colour,
+              labels);
+  }
 }
 
 }  // namespace edgewise::viewer

@@ -3,17 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "edgewise/backend.h"
+#include "edgewise/frontend.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
 #include "lab/error_marks.h"
 #include "support/options.h"
-#include "viewer/face_states.h"
 
 namespace edgewise::viewer {
 
@@ -51,6 +52,20 @@ Image around(const Image& image, int left, int right, Pixel focus, int reach);
 
 // Copies `from` to the columns of `into` from `left` on. They must have room for it.
 void paste(const Image& from, int left, Image& into);
+
+// The state of a face (active, clipped, culled, …), shown as a letter.
+struct FaceState {
+  glm::dvec3 centre;  // in the world
+  TriangleState state;
+  bool two_sided;
+};
+
+// The faces of all instances, in the order of their triangles. A face gets the latest state of its
+// triangles. `states` holds one state per triangle of the scene.
+std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states);
+
+// The number of faces of each kind, with its letter.
+std::string summary_of(std::span<const FaceState> faces);
 
 std::size_t vertex_count(const Scene& scene);    // of all instances
 inline constexpr std::size_t kMostLabels = 300;  // more would be unreadable
