@@ -14,27 +14,20 @@
 namespace edgewise::viewer {
 namespace {
 
-class Shown {
- public:
-  explicit Shown(std::string_view name, Execution execution = {}) : demo_(find_demo(name)) {
-    Start start = start_of(demo_);
-    start.reproducible = true;
-    start.execution = execution;
-    session_.emplace(std::move(start));
-  }
-  // Takes the next steps and draws.
-  const Screen& step(std::size_t steps = 1) {
-    for (std::size_t i = 0; i < steps; ++i) type("5");
-    return session_->draw(kDemoSize);
-  }
-  const Screen& type(std::string_view keys) { return viewer::type(*session_, keys, kDemoSize); }
-  const Side& side(std::size_t i) const { return session_->side(i); }
-  const State& state() const { return session_->state(); }
+Session shown(std::string_view name, Execution execution = {}) {
+  Start start = start_of(find_demo(name));
+  start.reproducible = true;
+  start.execution = execution;
+  return Session(std::move(start));
+}
 
- private:
-  const Demo& demo_;
-  std::optional<Session> session_;
-};
+const Screen& press(Session& session, std::string_view keys) {
+  return type(session, keys, kDemoSize);
+}
+// Takes the next steps and draws.
+const Screen& step(Session& session, std::size_t steps = 1) {
+  return press(session, std::string(steps, '5'));
+}
 
 TEST(Demos, AreWellFormed) {
   for (const Demo& demo : demos()) {
@@ -54,28 +47,29 @@ TEST(Demos, AreWellFormed) {
 
 TEST(Demos, LookTheSameOnAllTargetsAndThreads) {
   for (const Demo& demo : demos()) {
-    Shown first(demo.name, {.threads = 1, .target = SimdTarget::scalar});
-    std::vector<Shown> others;
+    Session first = shown(demo.name, {.threads = 1, .target = SimdTarget::scalar});
+    std::vector<Session> others;
     for (const SimdTarget target : supported_targets())
-      others.emplace_back(demo.name, Execution{.threads = 3, .tile_size = 16, .target = target});
+      others.push_back(shown(demo.name, {.threads = 3, .tile_size = 16, .target = target}));
     for (std::size_t i = 0; i < demo.steps.size(); ++i) {
-      const Screen& expected = first.step();
-      for (Shown& other : others)
-        EXPECT_EQ(other.step().picture.pixels, expected.picture.pixels) << demo.name << ", step " << i;
+      const Screen& expected = step(first);
+      for (Session& other : others)
+        EXPECT_EQ(step(other).picture.pixels, expected.picture.pixels) << demo.name << ", step " << i;
     }
   }
 }
 
 TEST(Demos, AStepShowsTheSameAfterOtherKeys) {
-  Shown straight("p5js-clipping"), strayed("p5js-clipping");
-  straight.step(2);
-  strayed.step();
-  strayed.type("<float_lt>wwd1r<1>");
-  EXPECT_EQ(strayed.step(2).picture.pixels, straight.step().picture.pixels);
+  Session straight = shown("p5js-clipping"), strayed = shown("p5js-clipping");
+  step(straight, 2);
+  step(strayed);
+  press(strayed, "<float_lt>wwd1r<1>");
+  EXPECT_EQ(step(strayed, 2).picture.pixels, step(straight).picture.pixels);
   EXPECT_EQ(strayed.state().step, 3u);
-  EXPECT_EQ(strayed.type("8").picture.pixels, strayed.type("85").picture.pixels);
+  const Image back = press(strayed, "8").picture;
+  EXPECT_EQ(press(strayed, "85").picture.pixels, back.pixels);
   for (const auto& [keys, step] : {std::pair("8888", 1u), {"55555555555", 7u}}) {
-    strayed.type(keys);
+    press(strayed, keys);
     EXPECT_EQ(strayed.state().step, step);
     EXPECT_EQ(strayed.state().message, "there is no further step");
   }
@@ -83,10 +77,10 @@ TEST(Demos, AStepShowsTheSameAfterOtherKeys) {
 
 // What the steps' sentences say.
 TEST(Pico8Culling, SwitchesFrontAndBackFacesSeparately) {
-  Shown demo("pico8-culling");
+  Session demo = shown("pico8-culling");
   std::uint64_t drawn[5];
   for (std::uint64_t& n : drawn) {
-    demo.step();
+    step(demo);
     n = demo.side(0).stats.emitted;
   }
   EXPECT_EQ(drawn[0], 12u);
@@ -99,15 +93,15 @@ TEST(Pico8Culling, SwitchesFrontAndBackFacesSeparately) {
 }
 
 TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCullsByWinding) {
-  Shown demo("pico8-inside-test");
+  Session demo = shown("pico8-inside-test");
   for (const bool gaps : {false, true}) {
-    demo.step();
+    step(demo);
     const Judgement& found = demo.side(0).judgement.value();
     EXPECT_GT((gaps ? found.gaps : found.double_hits).value(), 150u);
     EXPECT_EQ((gaps ? found.double_hits : found.gaps).value(), 0u);
   }
   for (const auto& [culls, right] : {std::pair(false, false), {true, true}, {false, true}, {false, false}}) {
-    demo.step();
+    step(demo);
     EXPECT_EQ(demo.side(1).cull_back, culls);
     EXPECT_EQ(demo.side(1).judgement->wrong < 10000, right);
   }
@@ -115,32 +109,32 @@ TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCullsByWinding) {
 }
 
 TEST(P5jsClipping, ClipsMovesRotatesAndReturnsToTheStart) {
-  Shown demo("p5js-clipping");
-  demo.step();
+  Session demo = shown("p5js-clipping");
+  step(demo);
   EXPECT_GT(demo.side(0).stats.clipped_near, 0u);
   EXPECT_LT(demo.side(0).judgement->wrong, 100u);
   const auto outlines = [](const Screen& screen) {
     return std::ranges::count(screen.picture.pixels, kPiecesOutline);
   };
-  const auto at_first = outlines(demo.step());
+  const auto at_first = outlines(step(demo));
   EXPECT_GT(at_first, 1000);
-  EXPECT_TRUE(demo.type("").labels.empty());
-  EXPECT_GE(demo.step().labels.size(), 16u);
-  demo.step(3);
+  EXPECT_TRUE(press(demo, "").labels.empty());
+  EXPECT_GE(step(demo).labels.size(), 16u);
+  step(demo, 3);
   EXPECT_GT(std::abs(demo.state().angle), 0.5f);
-  const auto at_last = outlines(demo.step());
+  const auto at_last = outlines(step(demo));
   EXPECT_EQ(demo.state().angle, 0.0f);
   EXPECT_NEAR(static_cast<double>(at_last), static_cast<double>(at_first), 1000.0);
 }
 
 TEST(RealbasicBackface, CullsFacesAndWholeObjectsButNoTwoSidedFace) {
-  Shown demo("realbasic-backface");
+  Session demo = shown("realbasic-backface");
   // Unlit, so that a face has its colour.
   const auto sheets = [&] {
-    demo.step();
+    step(demo);
     EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
-    const auto pixels = std::ranges::count(demo.type("k").picture.pixels, rgb(230, 230, 230));
-    demo.type("k");
+    const auto pixels = std::ranges::count(press(demo, "k").picture.pixels, rgb(230, 230, 230));
+    press(demo, "k");
     return pixels;
   };
   const auto one = sheets();
@@ -150,14 +144,14 @@ TEST(RealbasicBackface, CullsFacesAndWholeObjectsButNoTwoSidedFace) {
   EXPECT_GT(stats.clipped_near, 0u);
   EXPECT_GT(one, 1000);
   EXPECT_GT(sheets(), one * 3 / 2);
-  EXPECT_FALSE(demo.step().labels.empty());
+  EXPECT_FALSE(step(demo).labels.empty());
   EXPECT_NE(summary_of(demo.side(0).faces).find("culled with their object"), std::string::npos);
 }
 
 TEST(OutlawTriad, CullsAboutHalfOfTheQuads) {
-  Shown demo("outlaw-triad");
+  Session demo = shown("outlaw-triad");
   for (const std::size_t steps : {3u, 1u}) {
-    demo.step(steps);
+    step(demo, steps);
     EXPECT_LE(demo.side(0).stats.emitted, demo.side(1).stats.emitted * 6 / 10);
     EXPECT_EQ(demo.side(1).stats.culled, 0u);
     EXPECT_EQ(demo.side(0).choice.fills(), steps == 3);

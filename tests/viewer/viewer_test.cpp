@@ -90,7 +90,8 @@ TEST(Viewer, ShowsTheLibrarysBits) {
   }
   EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the wireframe
   // Painter's methods draw filled triangles only, so the wireframe key changes nothing.
-  EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
+  const Image sorted = type(session, "z").picture;
+  EXPECT_EQ(type(session, "y").picture.pixels, sorted.pixels);
   EXPECT_NE(session.side(0).because.find("no wireframe"), std::string::npos);
 }
 
