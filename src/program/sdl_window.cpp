@@ -89,9 +89,9 @@ std::optional<Key> key_of(SDL_Keycode code) {
 
 class Window {
  public:
-  explicit Window(const WindowOptions& o)
-      : window_(EDGEWISE_CALL(CreateWindow)(o.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                            o.size.width, o.size.height, SDL_WINDOW_RESIZABLE),
+  Window(const std::string& title, tools::Size size)
+      : window_(EDGEWISE_CALL(CreateWindow)(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                                            size.width, size.height, SDL_WINDOW_RESIZABLE),
                 EDGEWISE_CALL(DestroyWindow)) {
     if (!window_) fail("cannot open a window");
     EDGEWISE_CALL(SetWindowMinimumSize)(window_.get(), 64, 48);
@@ -156,9 +156,9 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
 
 }  // namespace
 
-void show_sdl_window(Session& session, const WindowOptions& options) {
+void show_sdl_window(Session& session, const std::string& title, tools::Size size) {
   const Sdl started;
-  Window window(options);
+  Window window(title, size);
   Panel panel;
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
