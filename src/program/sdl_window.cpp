@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "edgewise/contract.h"
 #include "viewer/panel/panel.h"
@@ -65,23 +66,12 @@ struct Sdl {
 };
 
 std::optional<Key> key_of(SDL_Keycode code) {
-  switch (code) {
-    case SDLK_UP:
-      return Key::up;
-    case SDLK_DOWN:
-      return Key::down;
-    case SDLK_LEFT:
-      return Key::left;
-    case SDLK_RIGHT:
-      return Key::right;
-    case SDLK_LSHIFT:
-    case SDLK_RSHIFT:
-      return Key::shift;
-    case SDLK_KP_ENTER:
-      return Key::enter;
-    default:
-      break;
-  }
+  constexpr std::pair<SDL_Keycode, Key> kNamed[] = {{SDLK_UP, Key::up},         {SDLK_DOWN, Key::down},
+                                                    {SDLK_LEFT, Key::left},     {SDLK_RIGHT, Key::right},
+                                                    {SDLK_LSHIFT, Key::shift},  {SDLK_RSHIFT, Key::shift},
+                                                    {SDLK_KP_ENTER, Key::enter}};
+  for (const auto& [named, key] : kNamed)
+    if (named == code) return key;
   // SDL key codes below 128 are ASCII.
   if (code > 0 && code < 128) return viewer::key_of(static_cast<char>(code));
   return std::nullopt;

@@ -66,14 +66,11 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   return colours;
 }
 
-// Flags by index in the scene; empty if no face is two-sided.
-std::vector<bool> two_sided_faces(const Drawable& drawable) {
-  const auto* scene = std::get_if<Scene>(&drawable);
-  const auto has_flags = [](const Mesh& mesh) { return !mesh.flags.empty(); };
-  if (scene == nullptr || std::none_of(scene->meshes.begin(), scene->meshes.end(), has_flags)) return {};
+// Flags by index in the scene.
+std::vector<bool> two_sided_faces(const Scene& scene) {
   std::vector<bool> faces;
-  for (const Instance& instance : scene->instances) {
-    const Mesh& mesh = scene->meshes.at(instance.mesh);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) faces.push_back(mesh.has_flag(i, kTwoSided));
   }
   return faces;
@@ -217,9 +214,9 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
     return fronts[id] != 0 ? 1 : -1;
   };
   const Cull mode = view.frontend.cull;
-  const std::vector<bool> two_sided = two_sided_faces(view.world.drawable());
+  const std::vector<bool> two_sided = two_sided_faces(*view.world.scene());
   const auto is_culled = [&](const ScreenTriangle& t) {
-    if (!two_sided.empty() && two_sided[t.payload - 1]) return false;
+    if (two_sided[t.payload - 1]) return false;
     const std::int64_t side = side_of(t);
     return mode == Cull::both || (mode == Cull::front && side > 0) || (mode == Cull::back && side < 0);
   };

@@ -37,7 +37,6 @@ struct Picture {
 // the same. All three start from a front end's triangles. Of a scene they are therefore compared with the
 // exact picture (lab/clipping/truth.h), which replaces them where they differ by more than 1/64 px.
 enum class Truth { contract, snapped, floats };
-inline constexpr Truth kTruths[] = {Truth::contract, Truth::snapped, Truth::floats};
 
 struct Judgement {
   std::uint64_t covered = 0;  // pixels where the reference shows a triangle

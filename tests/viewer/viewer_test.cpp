@@ -174,7 +174,7 @@ TEST(Viewer, ExplainsWhichMethodsCannotBeCombined) {
 
 TEST(Viewer, JudgesAgainstEachTruth) {
   Session session = session_of("cubes");
-  for (const Truth truth : kTruths) {
+  for (const Truth truth : {Truth::contract, Truth::snapped, Truth::floats}) {
     type(session, "");
     EXPECT_EQ(session.state().truth, truth);
     EXPECT_LE(wrong(session), truth == Truth::floats ? 60u : 0u);
