@@ -22,15 +22,12 @@ namespace {
 
 constexpr float kTurnPerSecond = 0.6f, kLookPerSecond = 1.2f;  // rad
 constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
-// During movement, errors are counted only if the frame is expected to stay within kBudget_ms.
-constexpr double kBudget_ms = 10.0;
+// During movement, errors are counted only if the frame is expected to stay within kBudget_ms. The expected
+// judging time decays by kDecay per frame, so that counting is retried every few seconds.
+constexpr double kBudget_ms = 10.0, kDecay = 0.995;
 // Vertices of a scene, or triangles of a stream. With more, counting errors takes seconds, so it starts on
 // request.
 constexpr std::size_t kMostJudged = 100'000;
-
-constexpr bool changes_picture(Command command) {
-  return command < Command::axes;
-}
 
 // To the method `step` places further, cyclically.
 template <typename Method>
@@ -45,11 +42,6 @@ void switch_edges(Side& side) {
     side.filled = std::exchange(side.choice.coverage, &lab::find_drawing_method(wireframe().name));
   else
     side.choice.coverage = side.filled;
-}
-
-// Whether a demo's next step can follow the command without a replay of the earlier steps.
-constexpr bool keeps_demo_state(Command command) {
-  return command >= Command::panel;
 }
 
 template <typename Enum>
@@ -75,7 +67,7 @@ Session::Session(Start start) : start_(std::move(start)) {
 void Session::press(Key key) {
   const auto command = command_of(key);
   if (!command) return;
-  demo_left_ |= !keeps_demo_state(*command);
+  demo_left_ |= *command < Command::panel;
   if (is_held(*command))
     held_.insert(key);
   else
@@ -145,7 +137,7 @@ void Session::move(Command command, float seconds) {
 
 void Session::act(Command command) {
   state_.message.clear();
-  if (changes_picture(command)) ++state_.version;
+  if (command < Command::axes) ++state_.version;
   constexpr std::pair<Command, bool State::*> kToggles[] = {
       {Command::axes, &State::along_view},     {Command::spin, &State::spinning},
       {Command::magnifier, &State::magnifier}, {Command::labels, &State::labels},
@@ -403,7 +395,10 @@ void Session::judge_if_due(std::size_t i, const lab::StageMethods& choice, const
   const bool fresh = side.judgement && side.judged == state_.version;
   if (state_.errors == Errors::off || !choice.fills() || fresh) return;
   const bool affordable = state_.reproducible || work_ms + side.judging_ms < kBudget_ms;
-  if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) return;
+  if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
+    side.judging_ms *= kDecay;
+    return;
+  }
   side.judging_ms =
       tools::milliseconds([&] { side.judgement = pipelines_[i].judge(choice, view, state_.truth); });
   side.judged = state_.version;
