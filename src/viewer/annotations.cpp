@@ -11,11 +11,6 @@
 
 namespace edgewise::viewer {
 
-void tint(Image& image, std::span<const lab::Mark> marks) {
-  for (std::size_t i = 0; i < marks.size(); ++i)
-    if (marks[i] != lab::Mark::none) image.pixels[i] = lab::colour_of(marks[i]);
-}
-
 void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> visible,
                   Backend& wireframe, FrameView scratch, const Execution& execution, Image& image) {
   std::vector<std::uint32_t> pieces(1);  // by payload: number of triangles

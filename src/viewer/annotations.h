@@ -1,5 +1,4 @@
-// Additions to a picture: tinted errors, outlines, labels in the scene. For the magnifier: the pixels around
-// one.
+// Additions to a picture: outlines, labels in the scene, and the pixels around one for the magnifier.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,6 @@
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
-#include "lab/error_marks.h"
 #include "support/options.h"
 
 namespace edgewise::viewer {
@@ -33,9 +31,6 @@ struct Screen {
   Image picture;
   std::vector<Label> labels;
 };
-
-// Paints the marked pixels in the colours of their marks.
-void tint(Image& image, std::span<const lab::Mark> marks);
 
 // Of a triangle drawn whole, and of the pieces into which clipping cut it.
 inline constexpr std::uint32_t kOneOutline = rgb(0, 0, 0), kPiecesOutline = rgb(255, 255, 255);

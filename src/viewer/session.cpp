@@ -386,7 +386,9 @@ Image Session::draw_side(std::size_t i, tools::Size size, double& work_ms) {
     side.faces_of = state_.version;
   }
   const bool tinted = state_.errors == Errors::tint && state_.arrangement != Arrangement::difference;
-  if (tinted && side.judgement) tint(picture.image, side.judgement->marks);
+  for (std::size_t p = 0; tinted && side.judgement && p < picture.image.pixels.size(); ++p)
+    if (const lab::Mark mark = side.judgement->marks[p]; mark != lab::Mark::none)
+      picture.image.pixels[p] = lab::colour_of(mark);
   return std::move(picture.image);
 }
 

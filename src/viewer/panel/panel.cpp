@@ -22,7 +22,7 @@ constexpr std::uint32_t kBackground = rgb(30, 31, 34);
 
 constexpr int kPanelWidth = 26;  // in heights of the font
 constexpr std::uint32_t kPlain = rgb(225, 225, 225), kStrong = rgb(255, 255, 255),
-                        kFaint = rgb(150, 150, 150), kNotOurs = rgb(255, 190, 90), kWrong = rgb(255, 120, 90);
+                        kNotOurs = rgb(255, 190, 90), kWrong = rgb(255, 120, 90);
 
 float em() {
   return ImGui::GetFontSize();
@@ -331,8 +331,6 @@ class Panel::Contents {
         text(kPlain, "{}{} objects, {} culled whole", prefix(*session_, i), n.meshes, n.meshes_culled);
     }
     toggle("outlines", '6', state().outlines);
-    ImGui::SameLine();
-    text(kFaint, "white: cut by clipping");
     if (state().stream) return;
     toggle("vertex numbers", 't', state().labels);
     const std::size_t vertices = vertex_count(*session_->world().scene());
