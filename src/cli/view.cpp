@@ -40,8 +40,8 @@ void check_windows(viewer::ShowWindow show_window) {
 }
 
 // Prints the names of the files that the session has saved.
-void print_saved(viewer::Session& session) {
-  for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
+void print_saved(const viewer::Session& session) {
+  for (const std::string& path : session.saved()) print(printable(path) + "\n");
 }
 
 // ---- view
@@ -56,19 +56,14 @@ struct ViewOptions {
   bool terminal = false;
 };
 
-// `first` is the shot that view() has already loaded; it is used once, unless the size has changed meanwhile.
+// Only built-in streams are loaded again, at every size: they fill the picture.
 viewer::Session make_session(const ViewOptions& o, Shot first) {
   viewer::Start start;
-  start.load = [&o, kept = std::make_shared<std::optional<Shot>>(std::move(first))](Size size) {
+  start.load = [&o, first = std::make_shared<Shot>(std::move(first))](Size size) {
+    if (!first->source.stream || first->source.built_in == nullptr) return std::move(*first);
     SceneOptions sized = o.options;
     sized.size = size;
-    const bool fits =
-        *kept && ((*kept)->source.built_in == nullptr || !(*kept)->source.stream ||
-                  ((*kept)->frontend.width == size.width && (*kept)->frontend.height == size.height));
-    if (!fits) return load_shot(o.scene, sized, o.options.time.value_or(0.0));
-    Shot shot = std::move(**kept);
-    kept->reset();
-    return shot;
+    return load_shot(o.scene, sized, o.options.time.value_or(0.0));
   };
   start.choice = o.choice;
   start.execution = o.execution.execution;
@@ -105,7 +100,7 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
-    show_window(session, {"edgewise: " + printable(o.scene), size});
+    show_window(session, "edgewise: " + printable(o.scene), size);
   }
   print_saved(session);
   return kDone;
@@ -143,11 +138,9 @@ struct DemoOptions {
   ExecutionOptions execution;
 };
 
-// The demos with these names; all if there are none.
-nlohmann::json as_json(const std::vector<std::string>& names) {
+nlohmann::json as_json(const std::vector<viewer::Demo>& demos) {
   auto list = nlohmann::json::array();
-  for (const viewer::Demo& demo : viewer::demos()) {
-    if (!names.empty() && std::find(names.begin(), names.end(), demo.name) == names.end()) continue;
+  for (const viewer::Demo& demo : demos) {
     auto steps = nlohmann::json::array();
     for (const viewer::Step& step : demo.steps)
       steps.push_back({{"keys", step.keys}, {"notice", step.notice}});
@@ -155,13 +148,6 @@ nlohmann::json as_json(const std::vector<std::string>& names) {
         {{"name", demo.name}, {"tutorial", demo.tutorial}, {"summary", demo.summary}, {"steps", steps}});
   }
   return list;
-}
-
-std::string list_of_all() {
-  std::string text;
-  for (const viewer::Demo& demo : viewer::demos())
-    text += fmt::format("{:<20} {}\n", demo.name, demo.summary);
-  return text;
 }
 
 std::string steps_of(const viewer::Demo& demo) {
@@ -221,14 +207,14 @@ void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPa
   write_next();
 }
 
-int write_all(const DemoOptions& o) {
+int write_all(const std::vector<viewer::Demo>& demos, const DemoOptions& o) {
   const OutputPaths paths("--output", *o.output, OutputKind::picture, o.names, o.frames, o.format);
   std::vector<Output> files;
   paths.append_to(files);
   check_files(files, {});
   paths.make_folder();
   Progress progress;
-  for (const std::string& name : o.names) write_frames(viewer::find_demo(name), o, paths, progress);
+  for (const viewer::Demo& demo : demos) write_frames(demo, o, paths, progress);
   return kDone;
 }
 
@@ -242,29 +228,28 @@ int show(const viewer::Demo& demo, const DemoOptions& o, viewer::ShowWindow show
   if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
-    show_window(session, {fmt::format("edgewise: {}", demo.name), size});
+    show_window(session, fmt::format("edgewise: {}", demo.name), size);
   }
   print_saved(session);
   return kDone;
 }
 
 int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
-  for (const std::string& name : o.names) viewer::find_demo(name);
+  std::vector<viewer::Demo> demos;
+  for (const std::string& name : o.names) demos.push_back(viewer::find_demo(name));
   const bool alive = o.view || o.terminal;
   if (alive && o.output) throw std::invalid_argument("--view and --output exclude each other");
   if (o.frames > 1 && !o.output) throw std::invalid_argument("--frames needs --output");
-  if (o.names.empty()) {
-    if (alive || o.output) throw std::invalid_argument("no TUTORIAL is named; `edgewise demo` lists them");
-    print(o.json ? json_text(as_json({}), 2) + "\n" : list_of_all());
-    return kDone;
-  }
-  if (o.output) return write_all(o);
-  if (alive && o.names.size() > 1) throw std::invalid_argument("--view shows one TUTORIAL");
-  if (alive) return show(viewer::find_demo(o.names.front()), o, show_window);
-  if (o.json)
-    print(json_text(as_json(o.names), 2) + "\n");
-  else
-    for (const std::string& name : o.names) print(steps_of(viewer::find_demo(name)));
+  if (demos.empty() && (alive || o.output))
+    throw std::invalid_argument("no TUTORIAL is named; `edgewise demo` lists them");
+  if (o.output) return write_all(demos, o);
+  if (alive && demos.size() > 1) throw std::invalid_argument("--view shows one TUTORIAL");
+  if (alive) return show(demos.front(), o, show_window);
+  const bool all = demos.empty();
+  if (all) demos.assign(viewer::demos().begin(), viewer::demos().end());
+  if (o.json) print(json_text(as_json(demos), 2) + "\n");
+  for (const viewer::Demo& demo : demos)
+    if (!o.json) print(all ? fmt::format("{:<20} {}\n", demo.name, demo.summary) : steps_of(demo));
   return kDone;
 }
 

@@ -1,15 +1,18 @@
 // The SDL window: passes events to the panel or the session, and shows their pictures.
+#include <SDL.h>
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "edgewise/contract.h"
-#include "program/sdl_library.h"
 #include "viewer/panel/panel.h"
 #include "viewer/session.h"
 #include "viewer/window.h"
@@ -24,55 +27,51 @@ constexpr auto kFrame = std::chrono::microseconds(1'000'000 / 60);
 constexpr int kIdle_ms = 100;            // between frames while nothing happens
 constexpr double kLongestStep_s = 0.25;  // limits the jump of movement after a long frame
 
-const SdlLibrary& sdl() {
-  static const SdlLibrary library;
-  return library;
+// SDL is loaded only when a window opens: linking it would slow down every start of the program several
+// times. It stays loaded, because its drivers may leave threads and handlers behind.
+void* sdl_function(const char* name) {
+  static void* const library = dlopen("libSDL2-2.0.so.0", RTLD_NOW | RTLD_LOCAL);  // of every SDL 2 version
+  void* const function = library == nullptr ? nullptr : dlsym(library, name);
+  if (function == nullptr)
+    throw std::runtime_error(std::string("cannot open a window: ") + dlerror() +
+                             "; --terminal works without one");
+  return function;
 }
+#define EDGEWISE_CALL(name) (reinterpret_cast<decltype(&SDL_##name)>(sdl_function("SDL_" #name)))
 
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(std::string(what) + ": " + sdl().GetError() +
+  throw std::runtime_error(std::string(what) + ": " + EDGEWISE_CALL(GetError)() +
                            "; --terminal works without a window");
 }
 
 struct Sdl {
   Sdl() {
-    sdl().SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
-    sdl().SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    EDGEWISE_CALL(SetHint)(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
+    EDGEWISE_CALL(SetHint)(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     // Copies pixels without OpenGL, which is slower than the drawing where there is no GPU.
-    sdl().SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("cannot open a window");
+    EDGEWISE_CALL(SetHint)(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    if (EDGEWISE_CALL(Init)(SDL_INIT_VIDEO) != 0) fail("cannot open a window");
     // Without a display SDL falls back to drivers that show nothing.
-    const std::string_view driver = sdl().GetCurrentVideoDriver();
+    const std::string_view driver = EDGEWISE_CALL(GetCurrentVideoDriver)();
     const char* const asked_for = std::getenv("SDL_VIDEODRIVER");
     if ((asked_for == nullptr || *asked_for == 0) &&
         (driver == "offscreen" || driver == "dummy" || driver == "evdev")) {
-      sdl().Quit();
+      EDGEWISE_CALL(Quit)();
       throw std::runtime_error("cannot open a window: there is no display; --terminal works without one");
     }
   }
-  ~Sdl() { sdl().Quit(); }
+  ~Sdl() { EDGEWISE_CALL(Quit)(); }
   Sdl(const Sdl&) = delete;
   Sdl& operator=(const Sdl&) = delete;
 };
 
 std::optional<Key> key_of(SDL_Keycode code) {
-  switch (code) {
-    case SDLK_UP:
-      return Key::up;
-    case SDLK_DOWN:
-      return Key::down;
-    case SDLK_LEFT:
-      return Key::left;
-    case SDLK_RIGHT:
-      return Key::right;
-    case SDLK_LSHIFT:
-    case SDLK_RSHIFT:
-      return Key::shift;
-    case SDLK_KP_ENTER:
-      return Key::enter;
-    default:
-      break;
-  }
+  constexpr std::pair<SDL_Keycode, Key> kNamed[] = {{SDLK_UP, Key::up},         {SDLK_DOWN, Key::down},
+                                                    {SDLK_LEFT, Key::left},     {SDLK_RIGHT, Key::right},
+                                                    {SDLK_LSHIFT, Key::shift},  {SDLK_RSHIFT, Key::shift},
+                                                    {SDLK_KP_ENTER, Key::enter}};
+  for (const auto& [named, key] : kNamed)
+    if (named == code) return key;
   // SDL key codes below 128 are ASCII.
   if (code > 0 && code < 128) return viewer::key_of(static_cast<char>(code));
   return std::nullopt;
@@ -80,38 +79,30 @@ std::optional<Key> key_of(SDL_Keycode code) {
 
 class Window {
  public:
-  explicit Window(const WindowOptions& o)
-      : window_(sdl().CreateWindow(o.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                   o.size.width, o.size.height, SDL_WINDOW_RESIZABLE),
-                sdl().DestroyWindow) {
+  Window(const std::string& title, tools::Size size)
+      : window_(EDGEWISE_CALL(CreateWindow)(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                                            size.width, size.height, SDL_WINDOW_RESIZABLE),
+                EDGEWISE_CALL(DestroyWindow)) {
     if (!window_) fail("cannot open a window");
-    sdl().SetWindowMinimumSize(window_.get(), 64, 48);
-  }
-
-  // The height of legible text on the window's display.
-  int font_px() const {
-    constexpr float kUsual_dpi = 96.0f;
-    float dpi = 0.0f;
-    const int display = sdl().GetWindowDisplayIndex(window_.get());
-    if (display < 0 || sdl().GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0) return Panel::kFont_px;
-    return std::max(static_cast<int>(std::lround(Panel::kFont_px * dpi / kUsual_dpi)), Panel::kFont_px);
+    EDGEWISE_CALL(SetWindowMinimumSize)(window_.get(), 64, 48);
   }
 
   void show(Session& session, Panel& panel) {
-    SDL_Surface* const surface = sdl().GetWindowSurface(window_.get());
+    SDL_Surface* const surface = EDGEWISE_CALL(GetWindowSurface)(window_.get());
     if (surface == nullptr) fail("cannot draw into the window");
     const tools::Size size{std::clamp(surface->w, 1, contract::kMaxImageSide),
                            std::clamp(surface->h, 1, contract::kMaxImageSide)};
     const Image& image = panel.show(session, size);
     const std::unique_ptr<SDL_Surface, decltype(&SDL_FreeSurface)> picture(
-        sdl().CreateRGBSurfaceWithFormatFrom(const_cast<std::uint32_t*>(image.pixels.data()), size.width,
-                                             size.height, 32, size.width * 4, SDL_PIXELFORMAT_ABGR8888),
-        sdl().FreeSurface);
+        EDGEWISE_CALL(CreateRGBSurfaceWithFormatFrom)(const_cast<std::uint32_t*>(image.pixels.data()),
+                                                      size.width, size.height, 32, size.width * 4,
+                                                      SDL_PIXELFORMAT_ABGR8888),
+        EDGEWISE_CALL(FreeSurface));
     if (!picture) fail("cannot draw into the window");
-    sdl().SetSurfaceBlendMode(picture.get(), SDL_BLENDMODE_NONE);
+    EDGEWISE_CALL(SetSurfaceBlendMode)(picture.get(), SDL_BLENDMODE_NONE);
     // Failures are ignored: the window has just changed size, and the next frame gets its new surface.
-    sdl().UpperBlit(picture.get(), nullptr, surface, nullptr);
-    sdl().UpdateWindowSurface(window_.get());
+    EDGEWISE_CALL(UpperBlit)(picture.get(), nullptr, surface, nullptr);
+    EDGEWISE_CALL(UpdateWindowSurface)(window_.get());
   }
 
  private:
@@ -131,13 +122,7 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
         if (const auto key = key_of(event.key.keysym.sym); key && !panel.press(*key)) session.press(*key);
       break;
     case SDL_KEYUP:
-      if (const auto key = key_of(event.key.keysym.sym)) {
-        panel.release(*key);
-        session.release(*key);
-      }
-      break;
-    case SDL_TEXTINPUT:
-      panel.type(event.text.text);
+      if (const auto key = key_of(event.key.keysym.sym)) session.release(*key);
       break;
     case SDL_MOUSEMOTION:
       point({event.motion.x, event.motion.y}, (event.motion.state & SDL_BUTTON_LMASK) != 0);
@@ -161,22 +146,23 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
 
 }  // namespace
 
-void show_sdl_window(Session& session, const WindowOptions& options) {
+void show_sdl_window(Session& session, const std::string& title, tools::Size size) {
   const Sdl started;
-  Window window(options);
-  Panel panel(window.font_px());
+  Window window(title, size);
+  Panel panel;
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
-    if (session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
+    if (session.still()) EDGEWISE_CALL(WaitEventTimeout)(nullptr, kIdle_ms);
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - last).count();
     last = now;
-    for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, panel, session);
+    for (SDL_Event event; open && EDGEWISE_CALL(PollEvent)(&event) != 0;)
+      open = handle(event, panel, session);
     session.advance(std::min(passed, kLongestStep_s));
     window.show(session, panel);
     open = open && !session.done();  // the panel has a button for it
-    if (const auto left = kFrame - (Clock::now() - now); left.count() > 0)
-      sdl().Delay(static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
+    if (const auto left = kFrame - (Clock::now() - now); left.count() > 0) EDGEWISE_CALL(Delay)
+    (static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }
 }
 

@@ -1,20 +1,15 @@
 #include "viewer/annotations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdlib>
+#include <array>
 #include <utility>
 
-#include "edgewise/contract.h"
-#include "edgewise/frontend.h"
 #include "frontend/view.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {
-
-void tint(Image& image, std::span<const lab::Mark> marks) {
-  for (std::size_t i = 0; i < marks.size(); ++i)
-    if (marks[i] != lab::Mark::none) image.pixels[i] = lab::colour_of(marks[i]);
-}
 
 void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> visible,
                   Backend& wireframe, FrameView scratch, const Execution& execution, Image& image) {
@@ -62,34 +57,62 @@ Image around(const Image& image, int left, int right, Pixel focus, int reach) {
   return part;
 }
 
-std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel) {
-  std::vector<TriangleOfPixel> found;
-  const int x0 = pixel.x * contract::kPixel_q15, y0 = pixel.y * contract::kPixel_q15;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const ScreenTriangle& t = triangles[i];
-    const auto [min_x, max_x] = std::minmax({t.x_q15[0], t.x_q15[1], t.x_q15[2]});
-    const auto [min_y, max_y] = std::minmax({t.y_q15[0], t.y_q15[1], t.y_q15[2]});
-    const contract::Oriented o = contract::orient(t);
-    if (max_x < x0 || max_y < y0 || min_x > x0 + contract::kPixel_q15 || min_y > y0 + contract::kPixel_q15 ||
-        o.area == 0)
-      continue;
-    TriangleOfPixel of{i, t.payload, {}, contract::depth01(contract::make_depth(o).at(pixel.x, pixel.y))};
-    bool reaches = true;
-    for (int k = 0; k < 3; ++k) {
-      const contract::Edge edge = contract::make_edge(o, k);
-      const std::int64_t value = edge.at(pixel.x, pixel.y);
-      // The most that the value grows between the sample and a corner of the pixel.
-      const std::int64_t growth =
-          std::int64_t{contract::kHalf_q15} * (std::int64_t{std::abs(edge.a)} + std::abs(edge.b));
-      reaches = reaches && value + growth > 0;
-      of.edges[static_cast<std::size_t>(k)] = value;
+namespace {
+
+struct Kind {
+  TriangleState state;
+  char letter;
+  std::string_view name;
+  std::uint32_t colour = rgb(150, 170, 190);
+};
+// The last kind stands for all rare states.
+constexpr std::array kKinds{Kind{TriangleState::active, 'a', "active", rgb(255, 255, 255)},
+                            Kind{TriangleState::clipped, 'c', "clipped", rgb(255, 210, 60)},
+                            Kind{TriangleState::culled, 'b', "culled by facing"},
+                            Kind{TriangleState::outside, 'o', "outside"},
+                            Kind{TriangleState::outside_with_mesh, '-', "culled with their object or part"},
+                            Kind{TriangleState::not_finite, 'x', "not drawable"}};
+
+const Kind& kind_of(const FaceState& face) {
+  const auto kind = std::ranges::find(kKinds, face.state, &Kind::state);
+  return kind == kKinds.end() ? kKinds.back() : *kind;
+}
+
+// The mean of the corners of triangles begin … end - 1.
+glm::dvec3 centre_of(const Mesh& mesh, std::size_t begin, std::size_t end) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t t = begin; t < end; ++t)
+    for (int k = 0; k < 3; ++k) sum += glm::dvec3(mesh.positions[mesh.triangles[t][k]]);
+  return sum / static_cast<double>(3 * (end - begin));
+}
+
+}  // namespace
+
+std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states) {
+  std::vector<FaceState> faces;
+  std::size_t id = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const glm::dmat4 model = model_matrix(mesh, instance);
+    for (std::size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
+      TriangleState state = states[id];
+      do {
+        state = std::max(state, states[id++]);
+      } while (++end < mesh.triangles.size() && mesh.has_flag(end, kSameFace));
+      const glm::dvec3 centre(model * glm::dvec4(centre_of(mesh, begin, end), 1.0));
+      faces.push_back({centre, state, mesh.has_flag(begin, kTwoSided)});
     }
-    if (reaches) found.push_back(of);
   }
-  std::ranges::stable_sort(found, {}, [](const TriangleOfPixel& t) {
-    return std::pair(!t.covers(), t.covers() ? t.depth01 : 0.0);
-  });
-  return found;
+  return faces;
+}
+
+std::string summary_of(std::span<const FaceState> faces) {
+  std::string text;
+  for (const Kind& kind : kKinds) {
+    const auto count = std::ranges::count(faces, &kind, [](const FaceState& face) { return &kind_of(face); });
+    if (count > 0) text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", kind.letter, count, kind.name);
+  }
+  return text + (std::ranges::any_of(faces, &FaceState::two_sided) ? "; capitals: two-sided" : "");
 }
 
 std::size_t vertex_count(const Scene& scene) {
@@ -110,11 +133,6 @@ void add_label(const View& view, glm::dvec3 world, const Strip& strip, std::stri
     labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
 }
 
-std::uint32_t colour_of(TriangleState state) {
-  if (state == TriangleState::active) return rgb(255, 255, 255);
-  return state == TriangleState::clipped ? rgb(255, 210, 60) : rgb(150, 170, 190);
-}
-
 }  // namespace
 
 void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label>& labels) {
@@ -133,8 +151,12 @@ void add_face_letters(const Camera& camera, std::span<const FaceState> faces, co
                       std::vector<Label>& labels) {
   if (faces.size() > kMostLabels) return;
   const View view(camera, strip.width, strip.height);
-  for (const FaceState& face : faces)
-    add_label(view, face.centre, strip, {letter_of(face)}, colour_of(face.state), labels);
+  for (const FaceState& face : faces) {
+    const auto& [state, letter, name, colour] = kind_of(face);
+    const bool capital = face.two_sided && letter != '-';
+    add_label(view, face.centre, strip, {capital ? static_cast<char>(letter - 'a' + 'A') : letter}, colour,
+              labels);
+  }
 }
 
 }  // namespace edgewise::viewer

@@ -1,20 +1,18 @@
-// Additions to a picture: tinted errors, outlines, labels in the scene. For the magnifier: the pixels around
-// one, and the triangles that reach it.
+// Additions to a picture: outlines, labels in the scene, and the pixels around one for the magnifier.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "edgewise/backend.h"
+#include "edgewise/frontend.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
-#include "lab/error_marks.h"
 #include "support/options.h"
-#include "viewer/face_states.h"
 
 namespace edgewise::viewer {
 
@@ -34,9 +32,6 @@ struct Screen {
   std::vector<Label> labels;
 };
 
-// Paints the marked pixels in the colours of their marks.
-void tint(Image& image, std::span<const lab::Mark> marks);
-
 // Of a triangle drawn whole, and of the pieces into which clipping cut it.
 inline constexpr std::uint32_t kOneOutline = rgb(0, 0, 0), kPiecesOutline = rgb(255, 255, 255);
 
@@ -50,19 +45,22 @@ void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std
 // have the alpha 255.
 Image around(const Image& image, int left, int right, Pixel focus, int reach);
 
-// A triangle that reaches into a pixel.
-struct TriangleOfPixel {
-  std::size_t index;                  // in the front end's output
-  std::uint32_t colour;               // its payload
-  std::array<std::int64_t, 3> edges;  // at the sample, in sub-units squared (rule 4); all >= 0: covers it
-  double depth01;                     // of its plane at the sample
-  bool covers() const { return (edges[0] | edges[1] | edges[2]) >= 0; }
-};
-// Those that cover the sample come first, the nearest of them first.
-std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triangles, Pixel pixel);
-
 // Copies `from` to the columns of `into` from `left` on. They must have room for it.
 void paste(const Image& from, int left, Image& into);
+
+// The state of a face (active, clipped, culled, …), shown as a letter.
+struct FaceState {
+  glm::dvec3 centre;  // in the world
+  TriangleState state;
+  bool two_sided;
+};
+
+// The faces of all instances, in the order of their triangles. A face gets the latest state of its
+// triangles. `states` holds one state per triangle of the scene.
+std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states);
+
+// The number of faces of each kind, with its letter.
+std::string summary_of(std::span<const FaceState> faces);
 
 std::size_t vertex_count(const Scene& scene);    // of all instances
 inline constexpr std::size_t kMostLabels = 300;  // more would be unreadable

@@ -130,7 +130,7 @@ constexpr Step kBackface[] = {
 constexpr Step kTriad[] = {
     {"<normal_z>k<2>", "A quad is kept if the z of its rotated normal points towards the camera."},
     {"r<2>r", "[r] rotates: about half of a closed object's faces face away at any time."},
-    {"0kv<tab>2<2>", "Left drops these faces before projection; right does not: equal pictures."},
+    {"0kv<tab>2<2>", "Left drops these faces; right does not: equal pictures."},
     {"<wireframe><tab><wireframe>wwwwwwwwwwwwww<1>",
      "Left, edges of the triangles kept, two per quad; right, of all triangles."},
 };
@@ -148,7 +148,7 @@ constexpr std::array kDemos{
     Demo{"realbasic-backface", "REALbasic engine, backface removal",
          "culling of faces and of whole objects, and two-sided faces", ring_of_cubes, Cull::back, kBackface},
     Demo{"outlaw-triad", "Outlaw Triad trainer, hidden face removal",
-         "quads, and the speed-up from dropping hidden faces", sphere_of_quads, Cull::back, kTriad},
+         "quads, of which a test of their normals drops half", sphere_of_quads, Cull::back, kTriad},
 };
 
 }  // namespace

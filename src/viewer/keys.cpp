@@ -45,9 +45,6 @@ std::span<const KeyRow> key_table() {
       {"3 4", "move slower, faster", {{'3', slower}, {'4', faster}}},
       {"0", "reset camera and rotation", {{'0', home}}},
       {"r", "start, stop rotating the objects", {{'r', spin}}},
-      {", .", "rotate the objects by hand", {{',', turn_back}, {'.', turn_on}}},
-      {"l", "rotate about the view direction", {{'l', axis_of_sight}}},
-      {"f", "freeze the rotation", {{'f', freeze}}},
       {"b", "next backend or coverage method", {{'b', coverage}}},
       {"y", "edges only or filled", {{'y', edges}}},
       {"x", "next clipping method", {{'x', clipping}}},
@@ -55,8 +52,6 @@ std::span<const KeyRow> key_table() {
       {"n", "next facing test", {{'n', facing}}},
       {"1 2", "cull front, back faces", {{'1', cull_front}, {'2', cull_back}}},
       {"k", "lighting on, off", {{'k', light}}},
-      {"j", "number of threads", {{'j', threads}}},
-      {"i", "SIMD target", {{'i', target}}},
       {"backspace", "previous value of the last switch", {{Key::backspace, switch_back}}},
       {"e", "errors: count, tint, off", {{'e', errors}}},
       {"u", "reference for counting errors", {{'u', truth}}},
@@ -71,7 +66,6 @@ std::span<const KeyRow> key_table() {
       {"p", "save a .png and a .tri file", {{'p', save}}},
       {"8 5", "previous, next step of a demo", {{'8', previous_step}, {'5', next_step}}},
       {"h", "help: all keys and methods", {{'h', help}}},
-      {"/", "search the help", {{'/', search}}},
       {"q, esc", "quit", {{'q', quit}, {Key::escape, quit}}},
   };
   return rows;

@@ -32,19 +32,19 @@ constexpr Key key_of(char c) {
 enum class Command : std::uint8_t {
   // Act while the key is held; in the order of Session::move():
   forwards, backwards, step_left, step_right, rise, sink,
-  look_up, look_down, look_left, look_right, turn_back, turn_on,
+  look_up, look_down, look_left, look_right,
   // Act once per key press, and change the picture:
-  home, spin, axis_of_sight, freeze,
-  coverage, edges, clipping, visibility, facing, cull_front, cull_back, light, threads, target, switch_back,
+  home, spin,
+  coverage, edges, clipping, visibility, facing, cull_front, cull_back, light, switch_back,
   errors, truth, arrangement, face_states, outlines,
   // The same, without a change of the picture:
   axes, slower, faster, magnifier, next_error, other_side, labels,
   // The same, without a change of anything that a demo's next step depends on:
-  panel, previous_step, next_step, help, search, save, quit,
+  panel, previous_step, next_step, help, save, quit,
 };
 // clang-format on
 constexpr bool is_held(Command command) {
-  return command <= Command::turn_on;
+  return command <= Command::look_right;
 }
 
 struct Binding {

@@ -66,14 +66,11 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   return colours;
 }
 
-// Flags by index in the scene; empty if no face is two-sided.
-std::vector<bool> two_sided_faces(const Drawable& drawable) {
-  const auto* scene = std::get_if<Scene>(&drawable);
-  const auto has_flags = [](const Mesh& mesh) { return !mesh.flags.empty(); };
-  if (scene == nullptr || std::none_of(scene->meshes.begin(), scene->meshes.end(), has_flags)) return {};
+// Flags by index in the scene.
+std::vector<bool> two_sided_faces(const Scene& scene) {
   std::vector<bool> faces;
-  for (const Instance& instance : scene->instances) {
-    const Mesh& mesh = scene->meshes.at(instance.mesh);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) faces.push_back(mesh.has_flag(i, kTwoSided));
   }
   return faces;
@@ -134,8 +131,6 @@ void Pipeline::draw_composed(const lab::StageMethods& choice, const View& view, 
     picture.stats.culled = triangles.culled;
     picture.stats.emitted = triangles.snapped.size();
   }
-  if (choice.our_clipping() && choice.facing->by_direction)
-    run_without_hidden_faces(*choice.facing, view, picture);
   const VisibleIds visible = visible_ids_of(choice, view, triangles, picture.raster_ms);
   const auto colours = colours_of(view.world.drawable(), view.frontend.shade);
   picture.image = {view.frontend.width, view.frontend.height, {}};
@@ -143,20 +138,6 @@ void Pipeline::draw_composed(const lab::StageMethods& choice, const View& view, 
   for (const std::uint32_t id : visible)
     picture.image.pixels.push_back(id == lab::kNoTriangle ? tools::background_of(Payload::colour)
                                                           : colours[id]);
-}
-
-void Pipeline::run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture) {
-  FrontendOptions options = view.frontend;
-  if (options.cull == Cull::front || options.cull == Cull::both) return;  // the methods drop back faces only
-  const bool drops = std::exchange(options.cull, Cull::none) == Cull::back;
-  const Scene& scene = *view.world.scene();
-  if (drops && (hidden_of_ != &scene || &hidden_->method() != &method)) {
-    hidden_.emplace(scene, method);
-    hidden_of_ = &scene;
-  }
-  picture.frontend_ms = milliseconds([&] {
-    screen_ = frontend_.run(drops ? hidden_->drop(scene) : view.world.drawable(), options, view.execution);
-  });
 }
 
 void Pipeline::outline(const lab::StageMethods& choice, const View& view, Image& image) {
@@ -233,9 +214,9 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
     return fronts[id] != 0 ? 1 : -1;
   };
   const Cull mode = view.frontend.cull;
-  const std::vector<bool> two_sided = two_sided_faces(view.world.drawable());
+  const std::vector<bool> two_sided = two_sided_faces(*view.world.scene());
   const auto is_culled = [&](const ScreenTriangle& t) {
-    if (!two_sided.empty() && two_sided[t.payload - 1]) return false;
+    if (two_sided[t.payload - 1]) return false;
     const std::int64_t side = side_of(t);
     return mode == Cull::both || (mode == Cull::front && side > 0) || (mode == Cull::back && side < 0);
   };

@@ -14,7 +14,6 @@
 #include "edgewise/frontend.h"
 #include "edgewise/image.h"
 #include "lab/error_marks.h"
-#include "lab/hidden_faces.h"
 #include "lab/stage_methods.h"
 #include "viewer/world.h"
 
@@ -38,7 +37,6 @@ struct Picture {
 // the same. All three start from a front end's triangles. Of a scene they are therefore compared with the
 // exact picture (lab/clipping/truth.h), which replaces them where they differ by more than 1/64 px.
 enum class Truth { contract, snapped, floats };
-inline constexpr Truth kTruths[] = {Truth::contract, Truth::snapped, Truth::floats};
 
 struct Judgement {
   std::uint64_t covered = 0;  // pixels where the reference shows a triangle
@@ -78,8 +76,6 @@ class Pipeline {
   using VisibleIds = std::vector<std::uint32_t>;
 
   void draw_ours(const lab::StageMethods& choice, const View& view, Picture& picture);
-  // Runs the front end again after a facing method that drops back faces before projection, to get its times.
-  void run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture);
   void draw_composed(const lab::StageMethods& choice, const View& view, Picture& picture);
   Triangles triangles_of(const lab::StageMethods& choice, const View& view, double& spent_ms);
   Triangles from_front_end(const View& view, Cull cull);
@@ -99,8 +95,6 @@ class Pipeline {
   std::optional<lab::Canvas> canvas_;
   lab::VisibilityFrame visibility_frame_;
   std::span<const ScreenTriangle> screen_;
-  std::optional<lab::HiddenFaces> hidden_;  // for the scene *hidden_of_
-  const Scene* hidden_of_ = nullptr;
 };
 
 }  // namespace edgewise::viewer

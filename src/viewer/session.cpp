@@ -13,7 +13,6 @@
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
 #include "lab/cases/to_stream.h"
-#include "lab/view_space.h"
 #include "support/milliseconds.h"
 #include "support/printable.h"
 
@@ -30,40 +29,19 @@ constexpr double kBudget_ms = 10.0, kDecay = 0.995;
 // request.
 constexpr std::size_t kMostJudged = 100'000;
 
-constexpr bool changes_picture(Command command) {
-  return command < Command::axes;
-}
-
-// The entry `step` places after the current one, cyclically.
-template <typename List, typename IsCurrent>
-const auto& next_in(const List& list, int step, IsCurrent&& is_current) {
-  const auto count = static_cast<std::ptrdiff_t>(std::size(list));
-  const std::ptrdiff_t at = std::find_if(std::begin(list), std::end(list), is_current) - std::begin(list);
-  return *(std::begin(list) + (at + step + count) % count);
-}
-
+// To the method `step` places further, cyclically.
 template <typename Method>
 void step_method(std::span<const Method> methods, const Method*& method, int step) {
-  method = &next_in(methods, step, [&](const Method& m) { return &m == method; });
+  const auto count = static_cast<std::ptrdiff_t>(methods.size());
+  method = &methods[static_cast<std::size_t>((method - methods.data() + step + count) % count)];
 }
 
 // Switches between a filling method and the wireframe.
-void switch_edges(std::span<const lab::CoverageMethod> choices, Side& side) {
-  const lab::CoverageMethod*& method = side.choice.coverage;
-  const bool filled = method->fills;
-  const lab::CoverageMethod* const before = filled ? method : nullptr;
-  if (!filled && side.filled != nullptr) {
-    method = side.filled;
-  } else {
-    do step_method(choices, method, 1);
-    while (method->fills == filled);
-  }
-  side.filled = before;
-}
-
-// Whether a demo's next step can follow the command without a replay of the earlier steps.
-constexpr bool keeps_demo_state(Command command) {
-  return command >= Command::panel;
+void switch_edges(Side& side) {
+  if (side.choice.fills())
+    side.filled = std::exchange(side.choice.coverage, &lab::find_drawing_method(wireframe().name));
+  else
+    side.choice.coverage = side.filled;
 }
 
 template <typename Enum>
@@ -81,7 +59,6 @@ void update_mean(double now, double& mean) {
 
 Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
-  sides_[1].choice = lab::our_choice("tiled");
   state_.execution = start_.execution;
   state_.reproducible = start_.reproducible;
   state_.execution.target = resolve(state_.execution.target);
@@ -90,7 +67,7 @@ Session::Session(Start start) : start_(std::move(start)) {
 void Session::press(Key key) {
   const auto command = command_of(key);
   if (!command) return;
-  demo_left_ |= !keeps_demo_state(*command);
+  demo_left_ |= *command < Command::panel;
   if (is_held(*command))
     held_.insert(key);
   else
@@ -132,14 +109,14 @@ void Session::point(Pixel to, bool held) {
 }
 
 bool Session::still() const {
-  return state_.stream || (held_.empty() && (!state_.spinning || state_.frozen));
+  return state_.stream || (held_.empty() && !state_.spinning);
 }
 
 void Session::advance(double seconds) {
   if (!world_ || still()) return;
   const auto passed = static_cast<float>(seconds);
   for (const Key key : held_) move(*command_of(key), passed);
-  if (state_.spinning && !state_.frozen) state_.angle += kTurnPerSecond * passed;
+  if (state_.spinning) state_.angle += kTurnPerSecond * passed;
   state_.angle = std::remainder(state_.angle, 2.0f * std::numbers::pi_v<float>);
   world_->turn(state_.axis, state_.angle);
   ++state_.version;
@@ -154,20 +131,18 @@ void Session::move(Command command, float seconds) {
   const int i = static_cast<int>(command), first_look = static_cast<int>(Command::look_up);
   if (command <= Command::sink)
     viewer::move(world_->camera(), distance * kDirections[i], state_.along_view);
-  else if (command <= Command::look_right)
-    look(world_->camera(), turn * kLooks[i - first_look].x, turn * kLooks[i - first_look].y);
   else
-    state_.angle += (command == Command::turn_on ? kTurnPerSecond : -kTurnPerSecond) * seconds;
+    look(world_->camera(), turn * kLooks[i - first_look].x, turn * kLooks[i - first_look].y);
 }
 
 void Session::act(Command command) {
   state_.message.clear();
-  if (changes_picture(command)) ++state_.version;
+  if (command < Command::axes) ++state_.version;
   constexpr std::pair<Command, bool State::*> kToggles[] = {
-      {Command::axes, &State::along_view},   {Command::spin, &State::spinning},
-      {Command::freeze, &State::frozen},     {Command::magnifier, &State::magnifier},
-      {Command::labels, &State::labels},     {Command::face_states, &State::face_states},
-      {Command::outlines, &State::outlines}, {Command::panel, &State::panel}};
+      {Command::axes, &State::along_view},     {Command::spin, &State::spinning},
+      {Command::magnifier, &State::magnifier}, {Command::labels, &State::labels},
+      {Command::outlines, &State::outlines},   {Command::face_states, &State::face_states},
+      {Command::panel, &State::panel}};
   for (const auto& [toggle, flag] : kToggles)
     if (command == toggle) {
       state_.*flag = !(state_.*flag);
@@ -185,9 +160,6 @@ void Session::act(Command command) {
       world_->camera() = world_->home();
       state_.angle = 0.0f;
       world_->turn(state_.axis, state_.angle);
-      break;
-    case Command::axis_of_sight:
-      if (world_ && !state_.stream) state_.axis = lab::line_of_sight(world_->camera());
       break;
     case Command::switch_back:
       if (last_switch_) switch_by(*last_switch_, -1);
@@ -223,10 +195,6 @@ void Session::act(Command command) {
       state_.help = !(state_.help && state_.panel);
       state_.panel |= state_.help;
       break;
-    case Command::search:
-      state_.help = state_.panel = true;
-      ++state_.searches;
-      break;
     case Command::save:
       save_next_ = true;
       break;
@@ -244,10 +212,10 @@ void Session::switch_by(Command command, int step) {
   lab::StageMethods& choice = side.choice;
   switch (command) {
     case Command::coverage:
-      step_method(coverage_choices(), choice.coverage, step);
+      step_method(lab::drawing_methods(), choice.coverage, step);
       break;
     case Command::edges:
-      switch_edges(coverage_choices(), side);
+      switch_edges(side);
       break;
     case Command::clipping:
       step_method(lab::clipping_methods(), choice.clipping, step);
@@ -267,14 +235,6 @@ void Session::switch_by(Command command, int step) {
     case Command::light:
       state_.lit = !state_.lit;
       break;
-    case Command::threads:
-      state_.execution.threads =
-          next_in(thread_counts(), step, [&](int n) { return n == state_.execution.threads; });
-      break;
-    case Command::target:
-      state_.execution.target = next_in(supported_targets(), step,
-                                        [&](SimdTarget target) { return target == state_.execution.target; });
-      break;
     default:
       return;
   }
@@ -288,25 +248,13 @@ void Session::choose(std::string_view method) {
   ++state_.version;
 }
 
-std::span<const lab::CoverageMethod> Session::coverage_choices() const {
-  const auto all = lab::drawing_methods();
-  const auto without = all.first(all.size() - compositions().size());
-  const auto is_among = [&](const lab::CoverageMethod* m) { return m < without.data() + without.size(); };
-  return is_among(start_.choice.coverage) && is_among(sides_[state_.active].choice.coverage) ? without : all;
-}
-
-std::vector<int> Session::thread_counts() const {
-  const int cores = tools::default_threads();
-  std::set<int> counts{cores, start_.execution.threads};
-  for (int n = 1; n < cores; n *= 2) counts.insert(n);
-  return {counts.begin(), counts.end()};
-}
-
 // Forgets what was measured and counted with other methods or at another size.
 void Session::reset_results() {
-  for (Side& side : sides_) side.judgement.reset();
+  for (Side& side : sides_) {
+    side.judgement.reset();
+    side.frontend_ms = side.raster_ms = 0;
+  }
   state_.frame_ms = 0;
-  cold_ = true;
 }
 
 // The keys of a step assume the state after the previous one. If that is not the state, all earlier steps are
@@ -323,7 +271,6 @@ void Session::take_step(std::size_t step) {
     fresh.save_next_ = save_next_;
     fresh.done_ = done_;
     fresh.state_.panel = state_.panel;
-    fresh.state_.searches = state_.searches;
     fresh.draw(window_, panel_width_px_);
     *this = std::move(fresh);
     from = 0;
@@ -380,13 +327,7 @@ const Screen& Session::draw(tools::Size window, int panel_width_px) {
     ++state_.version;
     reset_results();
   }
-  if (std::exchange(cold_, false)) {
-    // Draw twice and time the second frame: the first one also allocates memory and fills caches.
-    if (!state_.reproducible) draw_picture();
-    for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
-  }
-  state_.last_frame_ms = tools::milliseconds([&] { draw_picture(); });
-  update_mean(state_.last_frame_ms, state_.frame_ms);
+  update_mean(tools::milliseconds([&] { draw_picture(); }), state_.frame_ms);
   if (save_next_) save();
   add_labels();
   return screen_;
@@ -445,7 +386,9 @@ Image Session::draw_side(std::size_t i, tools::Size size, double& work_ms) {
     side.faces_of = state_.version;
   }
   const bool tinted = state_.errors == Errors::tint && state_.arrangement != Arrangement::difference;
-  if (tinted && side.judgement) tint(picture.image, side.judgement->marks);
+  for (std::size_t p = 0; tinted && side.judgement && p < picture.image.pixels.size(); ++p)
+    if (const lab::Mark mark = side.judgement->marks[p]; mark != lab::Mark::none)
+      picture.image.pixels[p] = lab::colour_of(mark);
   return std::move(picture.image);
 }
 
@@ -516,10 +459,6 @@ void Session::save() {
   } catch (const std::exception& error) {
     state_.message = fmt::format("not saved: {}", tools::printable(error.what()));
   }
-}
-
-std::vector<std::string> Session::take_saved() {
-  return std::exchange(saved_, {});
 }
 
 }  // namespace edgewise::viewer

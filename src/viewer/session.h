@@ -45,8 +45,8 @@ enum class Arrangement { one, side_by_side, difference };
 
 // One of the two pictures that can be compared.
 struct Side {
-  lab::StageMethods choice;
-  const lab::CoverageMethod* filled = nullptr;  // the filling method to return to from edges only
+  lab::StageMethods choice = lab::our_choice("tiled");
+  const lab::CoverageMethod* filled = choice.coverage;  // the method to return to from edges only
   bool cull_front = false, cull_back = false;
   std::string because;                    // which part of the choice cannot be drawn, and why
   double frontend_ms = 0, raster_ms = 0;  // moving averages
@@ -66,7 +66,7 @@ struct State {
   Execution execution;
   bool along_view = true;
   float speed = 1.0f;  // factor
-  bool spinning = false, frozen = false;
+  bool spinning = false;
   glm::vec3 axis{0.0f, 1.0f, 0.0f};
   float angle = 0.0f;  // rad
   Errors errors = Errors::count;
@@ -75,11 +75,9 @@ struct State {
   std::size_t active = 0;  // the side that keys change
   bool magnifier = false, labels = false, face_states = false, outlines = false;
   bool panel = true, help = false;
-  std::uint64_t searches = 0;   // how often the search of the help was called
   std::uint64_t differing = 0;  // pixels, in the difference of both sides
   double frame_ms = 0;          // moving average
-  double last_frame_ms = 0;
-  std::uint64_t version = 1;  // of the picture; changes with everything that the picture depends on
+  std::uint64_t version = 1;    // of the picture; changes with everything that the picture depends on
   std::string message;
   std::size_t step = 0;  // of a demo: how many steps were taken
   bool reproducible = false;
@@ -117,22 +115,11 @@ class Session {
   const Image& picture() const { return screen_.picture; }  // the last one
   tools::Size side_size() const { return side_size_; }      // of one side's picture
   int left_of(std::size_t side) const { return side == 0 ? 0 : screen_.picture.width - side_size_.width; }
-  // The coverage methods to choose from on the active side: compositions only if the session began with one
-  // or the side has one.
-  std::span<const lab::CoverageMethod> coverage_choices() const;
-  // The numbers of threads to choose from: 1, 2, 4, …, the number of usable cores, and the one at the start.
-  std::vector<int> thread_counts() const;
   // What the magnifier shows, in one side's picture.
   Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }
-  // The front end's output for the last picture of a side.
-  std::span<const ScreenTriangle> triangles(std::size_t side) const {
-    return pipelines_[side].screen_triangles();
-  }
   std::span<const Step> steps() const { return start_.steps; }
   const World& world() const { return *world_; }
-  // The names of the files saved since the last take_saved().
-  const std::vector<std::string>& saved() const { return saved_; }
-  std::vector<std::string> take_saved();
+  const std::vector<std::string>& saved() const { return saved_; }  // files' names
 
  private:
   void act(Command command);
@@ -163,7 +150,6 @@ class Session {
   std::optional<Pixel> pointer_, focus_;
   Pixel first_difference_{0, 0};
   bool done_ = false, save_next_ = false;
-  bool cold_ = true;  // no frame of this size and these methods was drawn yet
   Screen screen_;
   std::vector<std::string> saved_;
 };

@@ -31,9 +31,9 @@ constexpr Milliseconds kFrame(33), kIdle(200);
 constexpr Milliseconds kKeyTimeout(200);
 constexpr Milliseconds kEscapeTimeout(50);
 
-// Alternate screen, hidden cursor, mouse reports; and the way back, which the signal handler uses too.
-constexpr char kEnter[] = "\x1b[?1049h\x1b[?25l\x1b[?1002h\x1b[?1006h";
-constexpr char kLeave[] = "\x1b[0m\x1b[?1006l\x1b[?1002l\x1b[?25h\x1b[?1049l";
+// Alternate screen, hidden cursor; and the way back, which the signal handler uses too.
+constexpr char kEnter[] = "\x1b[?1049h\x1b[?25l";
+constexpr char kLeave[] = "\x1b[0m\x1b[?25h\x1b[?1049l";
 termios mode_before;
 
 void leave() {
@@ -127,31 +127,21 @@ class Loop {
   // Handles input until the first event or the time `until`. False if the terminal is gone.
   bool read_until(Clock::time_point until) {
     auto pause = std::chrono::duration_cast<Milliseconds>(until - Clock::now());
-    if (input_.waits()) pause = std::min(pause, kEscapeTimeout);
+    if (!pending_.empty()) pause = std::min(pause, kEscapeTimeout);
     pollfd in{STDIN_FILENO, POLLIN, 0};
     const int ready = poll(&in, 1, static_cast<int>(std::max<std::int64_t>(pause.count(), 0)));
     if (ready < 0) return errno == EINTR;
-    if (ready == 0) {
-      if (input_.waits()) handle(input_.settle());
-      return true;
+    if (ready > 0) {
+      char bytes[1024];
+      const ssize_t size = read(STDIN_FILENO, bytes, sizeof(bytes));
+      if (size <= 0) return size < 0 && (errno == EINTR || errno == EAGAIN);
+      pending_.append(bytes, static_cast<std::size_t>(size));
     }
-    char bytes[1024];
-    const ssize_t size = read(STDIN_FILENO, bytes, sizeof(bytes));
-    if (size <= 0) return size < 0 && (errno == EINTR || errno == EAGAIN);
-    handle(input_.feed({bytes, static_cast<std::size_t>(size)}));
+    for (const Key key : take_keys(pending_, ready == 0)) {
+      session_.press(key);
+      held_until_[key] = Clock::now() + kKeyTimeout;
+    }
     return true;
-  }
-
-  void handle(const std::vector<TerminalEvent>& events) {
-    for (const TerminalEvent& event : events) {
-      if (const Key* const key = std::get_if<Key>(&event)) {
-        session_.press(*key);
-        held_until_[*key] = Clock::now() + kKeyTimeout;
-      } else {
-        const Pointed& to = std::get<Pointed>(event);
-        session_.point({to.column, to.row * 2}, to.held);
-      }
-    }
   }
 
   void release_old() {
@@ -164,7 +154,7 @@ class Loop {
 
   RawTerminal terminal_;
   Session& session_;
-  TerminalInput input_;
+  std::string pending_;  // input
   TerminalPicture picture_;
   std::map<Key, Clock::time_point> held_until_;
 };

@@ -2,155 +2,106 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <iterator>
 #include <optional>
+#include <utility>
 
 namespace edgewise::viewer {
 
-// Control sequences as in xterm's documentation (ctlseqs): CSI and SS3 cursor keys, SGR mouse reports.
 namespace {
 
-constexpr char kEscape = '\x1b';
-constexpr std::size_t kLongestSequence = 32;
-
-std::optional<Key> cursor_key(char final) {
-  constexpr Key kKeys[] = {Key::up, Key::down, Key::right, Key::left};
-  if (final < 'A' || final > 'D') return std::nullopt;
-  return kKeys[final - 'A'];
-}
-
-// "<button;column;row", counted from 1.
-std::optional<Pointed> mouse(std::string_view parameters, bool released) {
-  int n[3];
-  const char* at = parameters.data() + 1;
-  const char* const end = parameters.data() + parameters.size();
-  for (int i = 0; i < 3; ++i) {
-    const auto [next, error] = std::from_chars(at, end, n[i]);
-    if (error != std::errc{} || (i < 2 && (next == end || *next != ';'))) return std::nullopt;
-    at = next + 1;
-  }
-  constexpr int kButtons = 3, kMotion = 32;
-  const bool left = (n[0] & kButtons) == 0 && (n[0] & ~(kButtons | kMotion)) == 0;
-  return Pointed{n[1] - 1, n[2] - 1, left && !released};
-}
-
-std::optional<Key> plain_key(char c) {
+Key plain_key(char c) {
   if (c == '\x7f') return Key::backspace;
-  if (c == '\n') return Key::enter;
-  return key_of(c);
+  return c == '\n' ? Key::enter : key_of(c);
 }
 
 }  // namespace
 
-std::vector<TerminalEvent> TerminalInput::feed(std::string_view bytes) {
-  pending_ += bytes;
-  std::vector<TerminalEvent> events;
-  std::string_view rest = pending_;
+// Control sequences as in xterm's documentation (ctlseqs): CSI and SS3 cursor keys.
+std::vector<Key> take_keys(std::string& bytes, bool paused) {
+  constexpr Key kCursor[] = {Key::up, Key::down, Key::right, Key::left};
+  std::vector<Key> keys;
+  std::string_view rest = bytes;
   while (!rest.empty()) {
-    if (rest[0] != kEscape) {
-      if (const auto key = plain_key(rest[0])) events.emplace_back(*key);
+    const bool escaped = rest[0] == '\x1b';
+    if (escaped && rest.size() == 1 && !paused) break;
+    // A plain key, Escape, or Alt and a key.
+    if (!escaped || rest.size() == 1 || (rest[1] != '[' && rest[1] != 'O')) {
+      keys.push_back(plain_key(rest[0]));
       rest.remove_prefix(1);
       continue;
     }
-    if (rest.size() < 2) break;
-    if (rest[1] != '[' && rest[1] != 'O') {  // Escape and another key, or Alt and a key
-      events.emplace_back(Key::escape);
-      rest.remove_prefix(1);
-      continue;
-    }
-    const std::size_t end = rest.find_first_not_of("<;0123456789", 2);
+    const std::size_t end = rest.find_first_not_of(";0123456789", 2);
     if (end == std::string_view::npos) {
-      if (rest.size() < kLongestSequence) break;
-      rest = {};
+      if (paused) rest = {};
       break;
     }
-    const char final = rest[end];
-    const std::string_view parameters = rest.substr(2, end - 2);
-    if (const auto key = cursor_key(final)) events.emplace_back(*key);
-    if ((final == 'M' || final == 'm') && parameters.starts_with('<'))
-      if (const auto pointed = mouse(parameters, final == 'm')) events.emplace_back(*pointed);
+    if (rest[end] >= 'A' && rest[end] <= 'D') keys.push_back(kCursor[rest[end] - 'A']);
     rest.remove_prefix(end + 1);
   }
-  pending_ = std::string(rest);
-  return events;
-}
-
-std::vector<TerminalEvent> TerminalInput::settle() {
-  const bool escape = pending_.starts_with(kEscape);
-  pending_.clear();
-  if (!escape) return {};
-  return {Key::escape};
+  bytes = std::string(rest);
+  return keys;
 }
 
 namespace {
 
 constexpr std::uint32_t kBlack = rgb(0, 0, 0), kStatus = rgb(225, 225, 225);
-constexpr const char* kUpperHalf = "\xe2\x96\x80";
 
 void append_colour(std::string& out, int ground, std::uint32_t colour) {
-  fmt::format_to(std::back_inserter(out), "\x1b[{};2;{};{};{}m", ground, colour & 255, colour >> 8 & 255,
-                 colour >> 16 & 255);
+  out += fmt::format("\x1b[{};2;{};{};{}m", ground, colour & 255, colour >> 8 & 255, colour >> 16 & 255);
+}
+
+// Two rows of pixels, from row y on.
+std::string row_of(const Screen& screen, int y) {
+  struct Character {
+    char letter;  // 0: the upper half block
+    std::uint32_t foreground, background;
+  };
+  const Image& image = screen.picture;
+  const auto* const upper = image.pixels.data() + std::ptrdiff_t{y} * image.width;
+  std::vector<Character> row;
+  for (int x = 0; x < image.width; ++x) {
+    const std::uint32_t lower = y + 1 < image.height ? upper[x + image.width] : kBlack;
+    row.push_back({upper[x] == lower ? ' ' : '\0', upper[x], lower});
+  }
+  for (const Label& label : screen.labels) {
+    auto x = static_cast<std::size_t>(label.x) - label.words.size() / 2;  // left of the border, it is huge
+    for (const char letter : label.words) {
+      if (label.y / 2 == y / 2 && x < row.size()) row[x] = {letter, label.colour, kBlack};
+      ++x;
+    }
+  }
+  std::string out;
+  std::optional<std::uint32_t> foreground, background;
+  for (const Character& c : row) {
+    if (c.letter != ' ' && foreground != c.foreground) append_colour(out, 38, c.foreground);
+    if (c.letter != ' ') foreground = c.foreground;
+    if (background != c.background) append_colour(out, 48, c.background);
+    background = c.background;
+    out += c.letter == 0 ? "\u2580" : std::string(1, c.letter);
+  }
+  return out;
 }
 
 }  // namespace
 
 std::string TerminalPicture::show(const Screen& screen, std::string_view status) {
-  const Image& image = screen.picture;
-  const int columns = image.width, rows = (image.height + 1) / 2;
-  std::vector<Character> now;
-  now.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows + 1));
-  const auto pixel = [&](int x, int y) {
-    if (y >= image.height) return kBlack;
-    return image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
-                        static_cast<std::size_t>(x)];
-  };
-  for (int row = 0; row < rows; ++row)
-    for (int x = 0; x < columns; ++x) {
-      const std::uint32_t upper = pixel(x, 2 * row), lower = pixel(x, 2 * row + 1);
-      // A space is shorter if both pixels have the same colour.
-      now.push_back(upper == lower ? Character{' ', lower, lower} : Character{0, upper, lower});
-    }
-  for (const Label& label : screen.labels) {
-    const int row = label.y / 2;
-    for (std::size_t i = 0; i < label.words.size(); ++i) {
-      const int x = label.x - static_cast<int>(label.words.size()) / 2 + static_cast<int>(i);
-      if (x < 0 || x >= columns) continue;
-      Character& c = now[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                         static_cast<std::size_t>(x)];
-      c = {label.words[i], label.colour, kBlack};
-    }
-  }
-  for (std::size_t x = 0; x < static_cast<std::size_t>(columns); ++x) {
-    const char letter = x < status.size() ? status[x] : ' ';
-    now.push_back({letter >= ' ' && letter <= '~' ? letter : '?', kStatus, kBlack});
+  const int columns = screen.picture.width;
+  std::vector<std::string> rows;
+  for (int y = 0; y < screen.picture.height; y += 2) rows.push_back(row_of(screen, y));
+  std::string& last = rows.emplace_back();
+  append_colour(last, 38, kStatus);
+  append_colour(last, 48, kBlack);
+  for (int x = 0; x < columns; ++x) {
+    const char letter =
+        static_cast<std::size_t>(x) < status.size() ? status[static_cast<std::size_t>(x)] : ' ';
+    last += letter >= ' ' && letter <= '~' ? letter : '?';
   }
 
-  const bool all = columns != columns_ || now.size() != shown_.size();
+  const bool all = columns != columns_ || rows.size() != shown_.size();
   std::string out = all ? "\x1b[0m\x1b[2J" : "";
-  std::optional<std::uint32_t> foreground, background;
-  std::size_t cursor = now.size();  // nowhere
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const Character& c = now[i];
-    if (!all && c == shown_[i]) continue;
-    const auto width = static_cast<std::size_t>(columns);
-    if (cursor != i || i % width == 0)
-      fmt::format_to(std::back_inserter(out), "\x1b[{};{}H", i / width + 1, i % width + 1);
-    if (c.letter != ' ' && foreground != c.foreground) {
-      append_colour(out, 38, c.foreground);
-      foreground = c.foreground;
-    }
-    if (background != c.background) {
-      append_colour(out, 48, c.background);
-      background = c.background;
-    }
-    if (c.letter == 0)
-      out += kUpperHalf;
-    else
-      out += c.letter;
-    cursor = i + 1;
-  }
-  shown_ = std::move(now);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (all || rows[i] != shown_[i]) out += fmt::format("\x1b[{};1H", i + 1) + rows[i];
+  shown_ = std::move(rows);
   columns_ = columns;
   return out;
 }

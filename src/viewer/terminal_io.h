@@ -1,10 +1,8 @@
-// A terminal's input bytes as key and mouse events, and screens as the bytes that show them.
+// A terminal's input bytes as keys, and screens as the bytes that show them.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "viewer/annotations.h"
@@ -12,23 +10,9 @@
 
 namespace edgewise::viewer {
 
-struct Pointed {
-  int column, row;  // from 0
-  bool held;
-};
-using TerminalEvent = std::variant<Key, Pointed>;
-
-class TerminalInput {
- public:
-  // Returns the complete events; an incomplete sequence is kept for the next call.
-  std::vector<TerminalEvent> feed(std::string_view bytes);
-  // To be called after a pause: a pending escape character was the Escape key.
-  std::vector<TerminalEvent> settle();
-  bool waits() const { return !pending_.empty(); }
-
- private:
-  std::string pending_;
-};
+// Removes complete keys from the front of `bytes`, and ignores other control sequences. After a pause, an
+// escape character alone is the Escape key, and incomplete sequences are dropped.
+std::vector<Key> take_keys(std::string& bytes, bool paused);
 
 // Shows a screen as half-block characters: each shows two pixels, one above the other, in true colour.
 class TerminalPicture {
@@ -38,13 +22,8 @@ class TerminalPicture {
   std::string show(const Screen& screen, std::string_view status);
 
  private:
-  struct Character {
-    char letter;  // 0: the upper half block
-    std::uint32_t foreground, background;
-    bool operator==(const Character&) const = default;
-  };
   int columns_ = 0;
-  std::vector<Character> shown_;
+  std::vector<std::string> shown_;  // rows
 };
 
 }  // namespace edgewise::viewer

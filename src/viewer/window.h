@@ -9,17 +9,12 @@ namespace edgewise::viewer {
 
 class Session;
 
-struct WindowOptions {
-  std::string title;
-  tools::Size size;
-};
-
 // Returns when the session is done or the window is closed. Throws std::runtime_error if no window can be
 // opened.
-using ShowWindow = void (*)(Session& session, const WindowOptions& options);
+using ShowWindow = void (*)(Session& session, const std::string& title, tools::Size size);
 
 // Defined in src/program, and only if SDL and Dear ImGui were found.
-void show_sdl_window(Session& session, const WindowOptions& options);
+void show_sdl_window(Session& session, const std::string& title, tools::Size size);
 
 // In half-block characters, for example over ssh. Returns when the session is done. Throws std::runtime_error
 // if standard input and output are not a terminal with cursor control. Restores the terminal's screen and

@@ -2,16 +2,13 @@
 // files.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <thread>
 
 #include "edgewise/image.h"
 #include "edgewise/tri_file.h"
 #include "lab/clipping/clipping.h"
-#include "lab/view_space.h"
 #include "message_of.h"
 #include "temp_dir.h"
 #include "viewer/viewer_support.h"
@@ -49,10 +46,8 @@ Scene near_then_far() {
 }
 
 // A floor that passes below the camera.
-Scene floor_below_the_camera() {
-  Scene scene;
+void add_floor(Scene& scene) {
   add_quad(scene, {-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9});
-  return scene;
 }
 
 std::uint64_t wrong(const Session& session) {
@@ -63,7 +58,6 @@ TEST(ViewerKeys, EachHasOneMeaningAndEachCommandAKey) {
   std::set<Key> keys;
   std::set<Command> commands;
   for (const KeyRow& row : key_table()) {
-    EXPECT_FALSE(row.does.empty());
     for (const Binding& binding : row.bindings) {
       EXPECT_TRUE(keys.insert(binding.key).second) << row.keys;
       commands.insert(binding.command);
@@ -71,7 +65,6 @@ TEST(ViewerKeys, EachHasOneMeaningAndEachCommandAKey) {
     }
   }
   EXPECT_EQ(commands.size(), static_cast<std::size_t>(Command::quit) + 1);
-  EXPECT_EQ(key_of('W'), key_of('w'));
 }
 
 TEST(ViewerKeys, AreReadFromText) {
@@ -87,86 +80,56 @@ TEST(ViewerKeys, AreReadFromText) {
 
 TEST(Viewer, ShowsTheLibrarysBits) {
   Session session = session_of("cubes");
-  EXPECT_EQ(type(session, "").picture.pixels, rendered("cubes", Cull::back).pixels);
-  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both).pixels);
-  EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front).pixels);
-  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::none).pixels);
-}
-
-TEST(Viewer, WireframesAreCulledAndLitLikeFaces) {
-  Session session = session_of("cubes");
-  const Image filled = type(session, "").picture, edges = type(session, "y").picture;
-  EXPECT_FALSE(session.side(0).choice.fills());
-  EXPECT_EQ(edges.pixels, rendered("cubes", Cull::back, kTestSize, wireframe()).pixels);
-  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both, kTestSize, wireframe()).pixels);
-  EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front, kTestSize, wireframe()).pixels);
-  EXPECT_EQ(type(session, "12y").picture.pixels, filled.pixels);
+  for (const BackendInfo& backend : {find_backend("naive"), wireframe()}) {
+    for (const auto& [keys, cull] : {std::pair("", Cull::back), std::pair("1", Cull::both),
+                                     std::pair("2", Cull::front), std::pair("1", Cull::none)})
+      EXPECT_EQ(type(session, keys).picture.pixels, rendered("cubes", cull, kTestSize, backend).pixels);
+    type(session, "2y");
+  }
   EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the wireframe
   // Painter's methods draw filled triangles only, so the wireframe key changes nothing.
-  EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
+  const Image sorted = type(session, "z").picture;
+  EXPECT_EQ(type(session, "y").picture.pixels, sorted.pixels);
   EXPECT_NE(session.side(0).because.find("no wireframe"), std::string::npos);
 }
 
 TEST(Viewer, CyclesThroughAllCoverageMethodsAndExactOnesHaveNoErrors) {
   Session session = session_of("cubes");
-  type(session, "ei<backspace>");
-  for (std::size_t i = 0; i < session.coverage_choices().size(); ++i) {
+  for (std::size_t i = 0; i < lab::drawing_methods().size(); ++i) {
     type(session, "b");
     const lab::CoverageMethod& method = *session.side(0).choice.coverage;
-    if (!method.fills) {
-      EXPECT_FALSE(session.side(0).judgement) << method.info.name;
-      continue;
-    }
-    ASSERT_TRUE(session.side(0).judgement) << method.info.name;
+    const auto& judgement = session.side(0).judgement;
+    EXPECT_EQ(judgement.has_value(), method.fills) << method.info.name;
+    if (!judgement) continue;
     if (method.contract_depth) {
-      EXPECT_EQ(wrong(session), 0u) << method.info.name;
-    }
-    if (method.info.exact && !method.contract_depth) {
-      EXPECT_EQ(session.side(0).judgement->gaps, 0u) << method.info.name;
-      EXPECT_EQ(session.side(0).judgement->double_hits, 0u) << method.info.name;
-    }
-    if (method.info.name == "whole_pixel") {
-      EXPECT_GT(wrong(session), 100u);
+      EXPECT_EQ(judgement->wrong, 0u) << method.info.name;
+    } else if (method.info.exact) {
+      EXPECT_EQ(judgement->gaps.value() + judgement->double_hits.value(), 0u) << method.info.name;
+    } else if (method.info.name == "whole_pixel") {
+      EXPECT_GT(judgement->wrong, 100u);
     }
   }
   EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");
 }
 
-TEST(Viewer, CyclesThroughCompositionsIfOneWasChosen) {
-  Session session = session_of("cubes");
-  const auto before = session.coverage_choices();
-  EXPECT_EQ(before.back().info.name, "wireframe");
-  session.choose(compositions().back().name);
-  EXPECT_EQ(session.coverage_choices().size(), before.size() + compositions().size());
-  type(session, "b");
-  EXPECT_EQ(session.side(0).choice.coverage, &before.front());
-}
-
 TEST(Viewer, ReplacesEachStageAlone) {
-  Session order = session_of(near_then_far());
-  type(order, "");
-  EXPECT_EQ(wrong(order), 0u);
-  type(order, "z<backspace><backspace>");  // submission_order is the last
-  EXPECT_EQ(order.side(0).choice.visibility->info.name, "submission_order");
-  EXPECT_GT(wrong(order), 500u);
-
-  Session floor = session_of(floor_below_the_camera(), Cull::none);
-  type(floor, "");
-  EXPECT_EQ(wrong(floor), 0u);
-  EXPECT_GT(floor.side(0).judgement->covered, 5000u);
-  type(floor, "x<backspace><backspace>");
-  EXPECT_EQ(floor.side(0).choice.clipping->info.name, "none");
-  EXPECT_GT(wrong(floor), 5000u);
-
+  Scene floor;
+  add_floor(floor);
+  // The last method of each stage errs in its scene; near the floor, all methods of the library are right.
+  for (const auto& [scene, cull, key, name, errors] :
+       {std::tuple(near_then_far(), Cull::back, "z", "submission_order", 500u),
+        std::tuple(floor, Cull::none, "x", "none", 5000u),
+        std::tuple(box_aside(), Cull::back, "n", "normal_z", 100u)}) {
+    Session session = session_of(scene, cull);
+    type(session, "");
+    EXPECT_EQ(wrong(session), 0u);
+    type(session, std::string(key) + "<backspace><backspace>");
+    EXPECT_EQ(describe(session.side(0).choice), name);
+    EXPECT_GT(wrong(session), errors);
+  }
   Session box = session_of(box_aside());
-  type(box, "n<backspace><backspace>");
-  EXPECT_EQ(box.side(0).choice.facing->info.name, "normal_z");
-  EXPECT_GT(wrong(box), 100u);
-  type(box, "<backspace>");
-  EXPECT_EQ(box.side(0).choice.facing->info.name, "normal_dot_object");
-  // normal_dot_eye is correct under perspective.
-  while (box.side(0).choice.facing->info.name != "normal_dot_eye") type(box, "<backspace>");
-  EXPECT_EQ(wrong(box), 0u);
+  type(box, "<normal_dot_eye>");
+  EXPECT_EQ(wrong(box), 0u) << "correct under perspective";
 }
 
 // The reference picture comes from the scene.
@@ -175,26 +138,22 @@ TEST(Viewer, JudgesWhatTheFrontEndLoses) {
   type(far, "");
   EXPECT_EQ(wrong(far), 0u);
   EXPECT_GT(far.side(0).judgement->covered, 5000u);
-  while (far.side(0).choice.clipping->info.name != "matrix_float") type(far, "x");
+  type(far, "<matrix_float>");
   EXPECT_GT(wrong(far), 5000u);
 }
 
 TEST(Viewer, CombinesEveryMethodOfEveryStage) {
   Session session = session_of("cubes");
-  for (const auto& [key, count] : {std::pair{'x', lab::clipping_methods().size()},
-                                   {'z', lab::visibility_methods().size()},
-                                   {'n', lab::facing_methods().size()}})
+  for (const auto& [key, count] : {std::pair{"x", lab::clipping_methods().size()},
+                                   {"z", lab::visibility_methods().size()},
+                                   {"n", lab::facing_methods().size()}})
     for (std::size_t i = 0; i < count; ++i) {
-      const Screen& screen = type(session, std::string(1, key));
-      EXPECT_EQ(screen.picture.width, kTestSize.width);
-      ASSERT_TRUE(session.side(0).judgement);
+      type(session, key);
       const lab::StageMethods& choice = session.side(0).choice;
       // The whole scene is in view, and its depths differ clearly.
-      const bool sorts = choice.visibility->stored01 == nullptr;
-      if (!sorts && choice.facing->info.name != "normal_z" &&
-          choice.facing->info.name != "normal_dot_object") {
-        EXPECT_LT(wrong(session), 20u) << describe(choice);
-      }
+      const bool errs = choice.visibility->stored01 == nullptr || choice.facing->info.name == "normal_z" ||
+                        choice.facing->info.name == "normal_dot_object";
+      EXPECT_TRUE(errs || wrong(session) < 20u) << describe(choice);
     }
   EXPECT_TRUE(session.side(0).choice.ours());
 }
@@ -207,25 +166,24 @@ TEST(Viewer, ExplainsWhichMethodsCannotBeCombined) {
   type(stream, "x");
   EXPECT_NE(stream.side(0).because.find("no camera"), std::string::npos);
   EXPECT_EQ(wrong(stream), 0u);
-  type(stream, "wr,<up>l0t");  // these keys do nothing for a stream
+  type(stream, "wr,<up>0t");  // these keys do nothing for a stream
   EXPECT_TRUE(stream.still());
 }
 
 TEST(Viewer, JudgesAgainstEachTruth) {
   Session session = session_of("cubes");
-  for (const Truth truth : kTruths) {
-    EXPECT_EQ(session.state().truth, truth);
+  for (const Truth truth : {Truth::contract, Truth::snapped, Truth::floats}) {
     type(session, "");
-    const Judgement& judgement = session.side(0).judgement.value();
-    EXPECT_LE(judgement.wrong, truth == Truth::floats ? 60u : 0u);
-    EXPECT_GT(judgement.covered, 3000u);
+    EXPECT_EQ(session.state().truth, truth);
+    EXPECT_LE(wrong(session), truth == Truth::floats ? 60u : 0u);
+    EXPECT_GT(session.side(0).judgement->covered, 3000u);
     type(session, "u");
   }
 }
 
 TEST(Viewer, TintsWrongPixelsAndMovesTheMagnifierToThem) {
   Session session = session_of(near_then_far());
-  const Image plain = type(session, "z<backspace><backspace>").picture;
+  const Image plain = type(session, "<submission_order>").picture;
   const Screen& screen = type(session, "e");
   std::uint64_t tinted = 0;
   for (std::size_t i = 0; i < plain.pixels.size(); ++i)
@@ -234,16 +192,16 @@ TEST(Viewer, TintsWrongPixelsAndMovesTheMagnifierToThem) {
       EXPECT_EQ(screen.picture.pixels[i], lab::colour_of(lab::Mark::twice));
     }
   EXPECT_EQ(tinted, wrong(session));
-  type(session, "<enter>");
+  std::set<std::string> messages;
+  for (const auto& [keys, says] : {std::pair("<enter>", "wrong pixel at"),
+                                   {"<enter>", "wrong pixel at"},
+                                   {"<contract31><enter>", "no wrong pixel"},
+                                   {"e<enter>", "errors are not counted"}}) {
+    type(session, keys);
+    EXPECT_TRUE(session.state().message.starts_with(says)) << session.state().message;
+    EXPECT_TRUE(messages.insert(session.state().message).second);
+  }
   EXPECT_TRUE(session.state().magnifier);
-  EXPECT_NE(session.state().message.find("wrong pixel at"), std::string::npos);
-  const std::string first = session.state().message;
-  type(session, "<enter>");
-  EXPECT_NE(session.state().message, first);
-  type(session, "z<enter>");
-  EXPECT_EQ(session.state().message, "no wrong pixel");
-  type(session, "e<enter>");
-  EXPECT_NE(session.state().message.find("errors are not counted"), std::string::npos);
 }
 
 TEST(Annotations, MagnifiesThePixelsAroundAFocusOfOnePicture) {
@@ -256,57 +214,23 @@ TEST(Annotations, MagnifiesThePixelsAroundAFocusOfOnePicture) {
                                                      rgb(6, 6, 6), rgb(7, 7, 7), none}));
 }
 
-// Against the picture: the first one listed is visible, if it covers the sample.
-TEST(Annotations, ListsTheTrianglesOfAPixelNearestFirst) {
-  Session session = session_of("cubes");
-  const Image picture = type(session, "k").picture;  // unlit: a payload is a face's colour
-  const std::span<const ScreenTriangle> triangles = session.triangles(0);
-  std::uint64_t covered = 0, only_touched = 0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const std::vector<TriangleOfPixel> found = triangles_of(triangles, {x, y});
-      const std::uint32_t shown =
-          picture.pixels[static_cast<std::size_t>(y * picture.width + x)] | 0xFF000000u;
-      const bool covers = !found.empty() && found.front().covers();
-      EXPECT_EQ(shown, covers ? found.front().colour | 0xFF000000u : rgb(0, 0, 0)) << x << ", " << y;
-      covered += covers;
-      only_touched += !found.empty() && !found.back().covers();
-      for (std::size_t i = 1; i < found.size(); ++i)
-        EXPECT_FALSE(found[i].covers() && !found[i - 1].covers()) << "covering ones first";
-    }
-  EXPECT_EQ(covered, session.side(0).judgement->covered);
-  EXPECT_GT(only_touched, 100u);
-}
-
-TEST(Annotations, GiveEdgeValuesAtTheSample) {
-  // A right triangle of 2 x 2 px; the sample of pixel (0, 0) is 1/2 px from both legs.
-  const ScreenTriangle t{{0, 2 << 15, 0}, {0, 0, 2 << 15}, {1000, 1000, 1000}, 7};
-  const auto at = [&](int x, int y) { return triangles_of(std::span(&t, 1), {x, y}); };
-  ASSERT_EQ(at(0, 0).size(), 1u);
-  EXPECT_EQ(at(0, 0)[0].edges, (std::array<std::int64_t, 3>{1 << 30, (std::int64_t{1} << 31) - 1, 1 << 30}));
-  EXPECT_TRUE(at(0, 0)[0].covers());
-  ASSERT_EQ(at(1, 0).size(), 1u);  // its sample lies on the hypotenuse, which is neither left nor top
-  EXPECT_FALSE(at(1, 0)[0].covers());
-  for (const auto& [x, y] : {std::pair(1, 1), std::pair(2, 0), std::pair(0, -1)})
-    EXPECT_TRUE(at(x, y).empty());
-}
-
-TEST(Viewer, DraggingTurnsTheCamera) {
+TEST(Viewer, LooksAroundByDragOrArrows) {
   Session session = session_of("cube");
   const Image home = type(session, "").picture;
-  const float yaw = session.world().scene()->camera.yaw, pitch = session.world().scene()->camera.pitch;
+  const Camera at_home = session.world().scene()->camera;
+  const Camera& camera = session.world().scene()->camera;
   session.point({100, 80}, false);
   EXPECT_EQ(session.draw(kTestSize).picture.pixels, home.pixels);
   session.point({120, 70}, true);
-  EXPECT_LT(session.world().scene()->camera.yaw, yaw);  // to the right
-  EXPECT_GT(session.world().scene()->camera.pitch, pitch);
+  EXPECT_LT(camera.yaw, at_home.yaw);  // to the right
+  EXPECT_GT(camera.pitch, at_home.pitch);
   EXPECT_NE(session.draw(kTestSize).picture.pixels, home.pixels);
   EXPECT_EQ(type(session, "0").picture.pixels, home.pixels);
   type(session, "<up><left>");
-  EXPECT_GT(session.world().scene()->camera.yaw, yaw);
-  EXPECT_GT(session.world().scene()->camera.pitch, pitch);
+  EXPECT_GT(camera.yaw, at_home.yaw);
+  EXPECT_GT(camera.pitch, at_home.pitch);
   for (int i = 0; i < 40; ++i) session.point({100, 80 - i * 100}, true);
-  EXPECT_LE(session.world().scene()->camera.pitch, 1.5708f);
+  EXPECT_LE(camera.pitch, 1.5708f);
 }
 
 TEST(Viewer, TurnsAMeshFarFrom0AboutItsMiddle) {
@@ -349,26 +273,16 @@ TEST(Viewer, MovesAlongTheViewOrTheWorld) {
   EXPECT_TRUE(session.still());
 }
 
-TEST(Viewer, TurnsObjectsAboutAnyAxis) {
+TEST(Viewer, TurnsObjects) {
   Session session = session_of("cube");
   const Image home = type(session, "").picture;
   EXPECT_NE(type(session, "r<1>").picture.pixels, home.pixels);
-  type(session, "f");
-  const float angle = session.state().angle;
-  EXPECT_GT(angle, 0.5f);
-  type(session, "<2>");
-  EXPECT_EQ(session.state().angle, angle);
-  EXPECT_EQ(type(session, "0").picture.pixels, home.pixels);
-  type(session, "fr");  // no longer frozen, no longer turning
-  // A rotation about the line of sight keeps the centre of the cube in place.
-  type(session, "l,,,");
-  EXPECT_LT(session.state().angle, 0.0f);
-  const glm::vec3 seen = lab::line_of_sight(session.world().scene()->camera);
-  EXPECT_EQ(session.state().axis, seen);
+  EXPECT_GT(session.state().angle, 0.5f);
+  EXPECT_EQ(type(session, "r0").picture.pixels, home.pixels);
+  type(session, "r<1>");
   const glm::mat4 model = model_matrix({}, session.world().scene()->instances[0]);
-  EXPECT_NEAR(glm::length(glm::vec3(model[3])), 0.0f, 1e-5f);
+  EXPECT_NEAR(glm::length(glm::vec3(model[3])), 0.0f, 1e-5f) << "the cube's centre stays in place";
   EXPECT_NEAR(glm::determinant(glm::mat3(model)), 1.0f, 1e-5f);
-  EXPECT_NE(type(session, "").picture.pixels, home.pixels);
 }
 
 TEST(Viewer, ComparesTwoSides) {
@@ -379,9 +293,7 @@ TEST(Viewer, ComparesTwoSides) {
     for (int x = 0; x < kTestSize.width; ++x)
       ASSERT_EQ(halves.picture.pixels[static_cast<std::size_t>(y * kTestSize.width + x)],
                 left.pixels[static_cast<std::size_t>(y * left.width + x % left.width)]);
-  type(session, "<tab>z<backspace><backspace>");
-  EXPECT_TRUE(session.side(0).choice.ours());
-  EXPECT_EQ(session.side(1).choice.visibility->info.name, "submission_order");
+  type(session, "<tab><submission_order>");
   EXPECT_EQ(session.side(0).judgement->wrong, 0u);
   EXPECT_GT(session.side(1).judgement->wrong, 100u);
   const Screen& apart = type(session, "v");
@@ -413,46 +325,11 @@ TEST(Viewer, FocusesTheSamePixelOfEitherSide) {
   }
 }
 
-// demos_test.cpp goes through the steps of every demo.
-TEST(Viewer, StepsForthAndBackAndSaysWhereThatEnds) {
-  static constexpr Step kSteps[] = {{"2", "Nothing is culled."}, {"1", "Front faces are culled."}};
-  Start start = start_with(find_scene("cubes").make({}), Cull::back);
-  start.steps = kSteps;
-  Session one(std::move(start)), none = session_of("cubes");
-  for (const auto& [keys, step, says] : {std::tuple{"55", 2u, ""},
-                                         {"8", 1u, ""},
-                                         {"8", 1u, "there is no further step"},
-                                         {"55", 2u, "there is no further step"}}) {
-    type(one, keys);
-    EXPECT_EQ(one.state().step, step);
-    EXPECT_NE(one.state().message.find(says), std::string::npos);
-    EXPECT_EQ(one.side(0).cull_front, step == 2);
-  }
-  type(none, "5");
-  EXPECT_NE(none.state().message.find("only demos have steps"), std::string::npos);
-}
-
 // Saves in `folder`.
 Session session_into(const std::filesystem::path& folder, std::string_view scene) {
   Start start = start_with(find_scene(scene).make({}), Cull::back);
   start.folder = folder;
   return Session(std::move(start));
-}
-
-TEST(Viewer, TypesStrokesThatLastAsLongAsTheySay) {
-  Session session = session_of("cube");
-  session.draw(kTestSize);
-  double seconds = 0;
-  const auto pass = [&](double stroke_s) {
-    session.advance(stroke_s);
-    seconds += stroke_s;
-  };
-  session.type(parse_keys("r<1>"), pass);
-  EXPECT_NEAR(seconds, 1.1, 1e-12);
-  Session at_once = session_of("cube");
-  type(at_once, "r<1>");
-  EXPECT_EQ(session.state().angle, at_once.state().angle);
-  EXPECT_GT(session.state().angle, 0.5f);
 }
 
 TEST(Viewer, SavedStreamsRenderTheSamePictureAndReplaceNoFile) {
@@ -461,10 +338,9 @@ TEST(Viewer, SavedStreamsRenderTheSamePictureAndReplaceNoFile) {
   folder.write("test-0002.tri", "older");
   Session session = session_into(folder.path(), "cubes");
   type(session, "w<left>p");
-  const auto saved = session.take_saved();
+  const auto saved = session.saved();
   ASSERT_EQ(saved,
             (std::vector<std::string>{folder.path() / "test-0003.png", folder.path() / "test-0003.tri"}));
-  EXPECT_TRUE(session.take_saved().empty());
   EXPECT_EQ(file_content(folder.path() / "test-0001.png"), "older");
   EXPECT_EQ(folder.count(), 4u);
   const Image picture = read_image(saved[0]);
@@ -477,7 +353,7 @@ TEST(Viewer, ReportsAFailedSave) {
   Session session = session_into("/proc/none", "cube");
   type(session, "p");
   EXPECT_NE(session.state().message.find("not saved"), std::string::npos);
-  EXPECT_TRUE(session.take_saved().empty());
+  EXPECT_TRUE(session.saved().empty());
 }
 
 // Three quads (a front face, a back face, one behind the camera) and a floor that passes below the camera.
@@ -487,22 +363,20 @@ TEST(Viewer, ShowsTheStateOfEachFace) {
   add_quad(scene, {-1, 1, -4}, {1, 1, -4}, {1, 0, -4}, {-1, 0, -4});
   add_quad(scene, {1, 1, -5}, {-1, 1, -5}, {-1, 0, -5}, {1, 0, -5});
   add_quad(scene, {-1, 1, 4}, {1, 1, 4}, {1, 0, 4}, {-1, 0, 4});
-  add_quad(scene, {-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9});
+  add_floor(scene);
   Session session = session_of(scene);
-  const auto faces = [&] { return letters_of(session.side(0).faces); };
-  type(session, "", kLarge);
-  EXPECT_EQ(faces(), "");
-  const Screen& screen = type(session, "7", kLarge);
-  EXPECT_EQ(faces(), "a b - c");
-  EXPECT_EQ(summary_of(session.side(0).faces).find("a 1 active, c 1 clipped, b 1 culled"), 0u);
-  EXPECT_EQ(labels(screen, "a"), 1);
-  EXPECT_EQ(labels(screen, "b"), 1);
-  EXPECT_EQ(labels(screen, "-"), 0) << "behind the camera";
-  type(session, "2", kLarge);
-  EXPECT_EQ(faces(), "a a - c");
-  // The same with a facing method of src/lab, which doesn't clip.
-  type(session, "2<normal_dot_eye>", kLarge);
-  EXPECT_EQ(faces(), "a b - c");
+  // The last row: the same with a facing method of src/lab, which doesn't clip.
+  for (const auto& [keys, active, culled, summary] :
+       {std::tuple("", 0, 0, ""),
+        {"7", 1, 1, "a 1 active, c 1 clipped, b 1 culled by facing, - 1"},
+        {"2", 2, 0, "a 2 active, c 1 clipped, - 1"},
+        {"2<normal_dot_eye>", 1, 1, "a 1 active, c 1 clipped, b 1 culled by facing, - 1"}}) {
+    const Screen& screen = type(session, keys, kLarge);
+    EXPECT_TRUE(summary_of(session.side(0).faces).starts_with(summary));
+    EXPECT_EQ(labels(screen, "a"), active);
+    EXPECT_EQ(labels(screen, "b"), culled);
+    EXPECT_EQ(labels(screen, "-"), 0) << "behind the camera";
+  }
   EXPECT_TRUE(type(session, "<screen_linear>", kLarge).labels.empty()) << "it doesn't report face states";
   scene.meshes[1].flags = {kTwoSided, kTwoSided | kSameFace};
   Session two_sided = session_of(scene);
@@ -528,7 +402,7 @@ TEST(Viewer, CountsErrorsOnceAMovingSceneStops) {
   Session session = session_of("cubes");
   type(session, "ur");  // turning
   EXPECT_FALSE(session.still());
-  type(session, "f");
+  type(session, "r");
   EXPECT_EQ(session.side(0).judged, session.state().version);
 }
 
@@ -539,21 +413,6 @@ TEST(Viewer, CountsErrorsOfLargeScenesOnRequestOnly) {
   EXPECT_NE(large.state().message.find("[e] counts them"), std::string::npos);
   type(small, "");
   EXPECT_TRUE(small.side(0).judgement);
-  EXPECT_EQ(small.state().message, "");
-}
-
-TEST(Viewer, FrameTimesExcludeLoading) {
-  static constexpr double kLoading_ms = 300;
-  Start start = start_with(find_scene("cube").make({}), Cull::back);
-  start.load = [load = start.load](tools::Size size) {
-    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(kLoading_ms));
-    return load(size);
-  };
-  Session session(std::move(start));
-  session.draw(kTestSize);
-  const double frame_ms = session.state().frame_ms;
-  EXPECT_GT(frame_ms, 0.0);
-  EXPECT_LT(frame_ms, kLoading_ms);
 }
 
 }  // namespace

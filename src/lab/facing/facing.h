@@ -99,8 +99,7 @@ struct FacingMethod {
   // The promise: false if the method cannot misjudge the orientation of its input, which is the normal, or
   // the first three vertices.
   bool (*may_err)(const FaceFacts& face, const FacingView& view);
-  bool by_normal = false;     // uses the face's normal
-  bool by_direction = false;  // uses only `forward` of the view
+  bool by_normal = false;  // uses the face's normal
 };
 
 // Ours first. The table is in methods.cpp.

@@ -122,7 +122,6 @@ const std::array<FacingMethod, 7> kMethods{{
      [](const FaceFacts& face, const FacingView& view) {
        return face.sine <= ray_rounding(face) + (view.perspective ? face.tilt_sine : 0.0);
      },
-     true,
      true},
 }};
 

@@ -12,23 +12,17 @@ namespace edgewise::viewer {
 
 namespace {
 
-constexpr std::uint32_t kOpaque = 255;
-std::uint32_t product(std::uint32_t a, std::uint32_t b) {
-  std::uint32_t both = 0;
-  for (int shift = 0; shift < 32; shift += 8)
-    both |= ((a >> shift & kOpaque) * (b >> shift & kOpaque) + kOpaque / 2) / kOpaque << shift;
-  return both;
-}
-
-std::uint32_t blended(std::uint32_t below, std::uint32_t above) {
-  const std::uint32_t alpha = above >> 24;
-  if (alpha == 0 || alpha == kOpaque) return alpha == 0 ? below : above;
-  std::uint32_t both = 0xFF000000u;
-  for (int shift = 0; shift < 24; shift += 8) {
-    const std::uint32_t sum =
-        (above >> shift & kOpaque) * alpha + (below >> shift & kOpaque) * (kOpaque - alpha);
-    both |= (sum + kOpaque / 2) / kOpaque << shift;
-  }
+// A texel, times a colour, over a pixel.
+std::uint32_t blended(std::uint32_t pixel, std::uint32_t texel, std::uint32_t colour) {
+  constexpr std::uint32_t kOpaque = 255;
+  const auto product = [&](int shift) {
+    return ((texel >> shift & kOpaque) * (colour >> shift & kOpaque) + kOpaque / 2) / kOpaque;
+  };
+  const std::uint32_t alpha = product(24);
+  std::uint32_t both = kOpaque << 24;
+  for (int shift = 0; shift < 24; shift += 8)
+    both |= (product(shift) * alpha + (pixel >> shift & kOpaque) * (kOpaque - alpha) + kOpaque / 2) / kOpaque
+            << shift;
   return both;
 }
 
@@ -59,8 +53,9 @@ void paint_triangle(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& 
   if (o.area == 0) return;
   const bool turned = contract::signed_area(t) < 0;
   const ImVec2 uv[] = {a.uv, turned ? c.uv : b.uv, turned ? b.uv : c.uv};
+  // Of areas of one colour.
   const bool plain = uv[0].x == uv[1].x && uv[0].x == uv[2].x && uv[0].y == uv[1].y && uv[0].y == uv[2].y;
-  const std::uint32_t colour = product(texel(texture, uv[0].x, uv[0].y), a.col);
+  std::uint32_t sample = texel(texture, uv[0].x, uv[0].y);
   contract::PixelBox box = contract::pixel_box(t, image.width, image.height);
   box = {std::max(box.x0, clip.x0), std::max(box.y0, clip.y0), std::min(box.x1, clip.x1),
          std::min(box.y1, clip.y1)};
@@ -75,17 +70,16 @@ void paint_triangle(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& 
       const std::int64_t w[] = {next[0], next[1], next[2]};
       for (int i = 0; i < 3; ++i) next[i] += std::int64_t{contract::kPixel_q15} * edges[i].a;
       if ((w[0] | w[1] | w[2]) < 0) continue;
-      if (plain) {
-        row[x] = blended(row[x], colour);
-        continue;
+      if (!plain) {
+        double u = 0, v = 0;
+        for (int i = 0; i < 3; ++i) {
+          const double weight = static_cast<double>(w[i]) * per_area;
+          u += weight * static_cast<double>(uv[i].x);
+          v += weight * static_cast<double>(uv[i].y);
+        }
+        sample = texel(texture, u, v);
       }
-      double u = 0, v = 0;
-      for (int i = 0; i < 3; ++i) {
-        const double weight = static_cast<double>(w[i]) * per_area;
-        u += weight * static_cast<double>(uv[i].x);
-        v += weight * static_cast<double>(uv[i].y);
-      }
-      row[x] = blended(row[x], product(texel(texture, u, v), a.col));
+      row[x] = blended(row[x], sample, a.col);
     }
   }
 }

@@ -13,14 +13,102 @@
 
 #include "support/printable.h"
 #include "viewer/panel/imgui_paint.h"
-#include "viewer/panel/panel_magnifier.h"
-#include "viewer/panel/panel_widgets.h"
 
 namespace edgewise::viewer {
 
 namespace {
 
 constexpr std::uint32_t kBackground = rgb(30, 31, 34);
+
+constexpr int kPanelWidth = 26;  // in heights of the font
+constexpr std::uint32_t kPlain = rgb(225, 225, 225), kStrong = rgb(255, 255, 255),
+                        kNotOurs = rgb(255, 190, 90), kWrong = rgb(255, 120, 90);
+
+float em() {
+  return ImGui::GetFontSize();
+}
+
+// `wrap`: where lines end; 0: at the end of the window.
+void wrapped(std::uint32_t colour, std::string_view words, float wrap) {
+  std::string shown(words);
+  // Dear ImGui's font lacks this sign.
+  constexpr std::string_view kAtMost = "\u2264";
+  for (std::size_t at; (at = shown.find(kAtMost)) != std::string::npos;)
+    shown.replace(at, kAtMost.size(), "<=");
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(wrap);
+  ImGui::TextUnformatted(shown.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void text(std::uint32_t colour, std::string_view words) {
+  wrapped(colour, words, 0.0f);
+}
+template <typename... Values>
+void text(std::uint32_t colour, fmt::format_string<const Values&...> words, const Values&... values) {
+  wrapped(colour, fmt::format(words, values...), 0.0f);
+}
+
+// At the lower end of the panel, where it hides neither the picture nor the list that the pointer is in.
+void tooltip(std::string_view words) {
+  if (words.empty() || !ImGui::IsItemHovered()) return;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x - kPanelWidth * em(), window.y}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::BeginTooltip();
+  wrapped(kPlain, words, (kPanelWidth - 1) * em());
+  ImGui::EndTooltip();
+}
+
+bool section(const char* title) {
+  return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+}
+
+// A square of a colour, at the start of a line.
+void swatch(std::uint32_t colour) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + em() - 2.0f, at.y + em() - 2.0f},
+                                            colour | 0xFF000000u);
+  ImGui::Dummy({em(), em()});
+  ImGui::SameLine();
+}
+
+ImTextureID id_of(const Image& image) {
+  return const_cast<Image*>(&image);
+}
+
+// Before a line about one side, where there are two.
+const char* prefix(const Session& session, std::size_t side) {
+  return session.side_count() == 1 ? "" : side == 0 ? "left: " : "right: ";
+}
+
+constexpr int kReach = 7;  // pixels to each side
+constexpr int kAcross = 2 * kReach + 1;
+
+// An image's pixels as squares of a grid, with a frame around the middle one.
+void show_grid(const Image& image, float square) {
+  const float all = square * kAcross;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Image(id_of(image), {all, all});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (int k = 1; k < kAcross; ++k) {
+    const float by = square * static_cast<float>(k);
+    list.AddRectFilled({at.x + by, at.y}, {at.x + by + 1.0f, at.y + all}, 0x60000000u);
+    list.AddRectFilled({at.x, at.y + by}, {at.x + all, at.y + by + 1.0f}, 0x60000000u);
+  }
+  const ImVec2 middle{at.x + square * kReach, at.y + square * kReach};
+  list.AddRect(middle, {middle.x + square + 1.0f, middle.y + square + 1.0f}, rgb(255, 255, 0), 0.0f, 0,
+               std::floor(square / 8.0f));
+}
+
+constexpr int kFont_px = 13;  // the height for which Dear ImGui's font is made
+
+// A high window gets a larger font, and a narrow one a smaller font; 0: no room.
+int font_px(tools::Size window) {
+  constexpr int kLines = 1080 / 16;  // of text in a high window
+  const int px = std::min(std::max(window.height / kLines, kFont_px), window.width / (2 * kPanelWidth));
+  return px < kFont_px ? 0 : px;
+}
 
 struct Entry {
   std::string name;
@@ -32,17 +120,11 @@ struct Entry {
 // The widgets, and what they keep from frame to frame. A widget presses the key that it shows.
 class Panel::Contents {
  public:
-  // Once per picture.
-  void prepare(Session& session) {
-    session_ = &session;
-    std::rotate(frames_ms_.begin(), frames_ms_.begin() + 1, frames_ms_.end());
-    frames_ms_.back() = static_cast<float>(state().last_frame_ms);
-    if (state().magnifier) magnifier_.look(session);
-  }
   // Whether a widget changed the session since the last call.
   bool take_changed() { return std::exchange(changed_, false); }
 
-  void lay_out() {
+  void lay_out(Session& session) {
+    session_ = &session;
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({window.x - kPanelWidth * em(), 0.0f});
     ImGui::SetNextWindowSize({kPanelWidth * em(), window.y});
@@ -160,7 +242,7 @@ class Panel::Contents {
       ImGui::SameLine();
       text(kStrong, state().active == 0 ? "side: left" : "side: right");
     }
-    method("coverage", 'b', session_->coverage_choices(), c.coverage, c.our_coverage());
+    method("coverage", 'b', lab::drawing_methods(), c.coverage, c.our_coverage());
     method("clipping", 'x', lab::clipping_methods(), c.clipping, c.our_clipping());
     method("visibility", 'z', lab::visibility_methods(), c.visibility, c.our_visibility());
     method("facing", 'n', lab::facing_methods(), c.facing, c.our_facing());
@@ -211,25 +293,22 @@ class Panel::Contents {
     if (!section("Magnifier")) return;
     toggle("at pointer", 'g', state().magnifier);
     button_beside("[enter] wrong pixel", Key::enter);
-    if (state().magnifier) magnifier_.lay_out(*session_);
+    if (!state().magnifier) return;
+    const Pixel focus = session_->focus();
+    const std::size_t views = state().arrangement == Arrangement::side_by_side ? 2 : 1;
+    const float room = (kPanelWidth - 3) * em() / static_cast<float>(views);
+    for (std::size_t i = 0; i < views; ++i) {
+      const int left = session_->left_of(i);
+      zoomed_[i] = around(session_->picture(), left, left + session_->side_size().width, focus, kReach);
+      if (i > 0) ImGui::SameLine();
+      show_grid(zoomed_[i], std::floor(std::min(room / kAcross, 0.8f * em())));
+    }
+    text(kStrong, "pixel {}, {}", focus.x, focus.y);
   }
 
   void times() {
     if (state().reproducible || !section("Times")) return;
-    const auto targets = supported_targets();
-    const std::vector<int> threads = session_->thread_counts();
-    std::vector<Entry> names, counts;
-    for (const SimdTarget target : targets) names.push_back({std::string(edgewise::name_of(target))});
-    for (const int n : threads) counts.push_back({std::to_string(n)});
-    const auto target = std::find(targets.begin(), targets.end(), state().execution.target);
-    const auto used = std::find(threads.begin(), threads.end(), state().execution.threads);
-    choice("SIMD target", 'i', names, static_cast<std::size_t>(target - targets.begin()));
-    choice("threads", 'j', counts, static_cast<std::size_t>(used - threads.begin()));
-    const float most = *std::max_element(frames_ms_.begin(), frames_ms_.end());
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::PlotLines("##frames", frames_ms_.data(), static_cast<int>(frames_ms_.size()), 0,
-                     fmt::format("{:.1f} ms per frame, at most {:.1f}", state().frame_ms, most).c_str(), 0.0f,
-                     1.5f * most, {0.0f, 3.0f * em()});  // with the words above the curve
+    text(kPlain, "{:.1f} ms per frame", state().frame_ms);
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const Side &side = session_->side(i), &first = session_->side(0);
       text(kPlain, "{}front end {:.2f} ms, raster {:.2f} ms", prefix(*session_, i), side.frontend_ms,
@@ -252,8 +331,6 @@ class Panel::Contents {
         text(kPlain, "{}{} objects, {} culled whole", prefix(*session_, i), n.meshes, n.meshes_culled);
     }
     toggle("outlines", '6', state().outlines);
-    ImGui::SameLine();
-    text(kFaint, "white: cut by clipping");
     if (state().stream) return;
     toggle("vertex numbers", 't', state().labels);
     const std::size_t vertices = vertex_count(*session_->world().scene());
@@ -262,12 +339,11 @@ class Panel::Contents {
     toggle("state of each face", '7', state().face_states);
     for (std::size_t i = 0; state().face_states && i < session_->side_count(); ++i) {
       const Side& side = session_->side(i);
-      const bool many = side.faces.size() > kMostLabels;
       if (!side.choice.our_clipping())
         text(kNotOurs, "{}this clipping method doesn't report face states", prefix(*session_, i));
       else
-        text(kPlain, "{}{}\n{}", prefix(*session_, i), summary_of(side.faces),
-             many ? "too many faces for letters" : letters_of(side.faces));
+        text(kPlain, "{}{}{}", prefix(*session_, i), summary_of(side.faces),
+             side.faces.size() > kMostLabels ? "; too many faces for letters" : "");
     }
   }
 
@@ -280,29 +356,18 @@ class Panel::Contents {
     };
     text(kPlain, "camera {:.2f} {:.2f} {:.2f}, yaw {}, pitch {}", c.position.x, c.position.y, c.position.z,
          degrees(c.yaw), degrees(c.pitch));
-    text(kFaint, "[w a s d] [space] [shift] move\n[arrows] or drag: look around");
     choice("move along", 'm', {{"world axes"}, {"camera axes"}}, state().along_view ? 1 : 0);
     button("[3] slower", key_of('3'));
     button_beside("[4] faster", key_of('4'));
     ImGui::SameLine();
     text(kPlain, "speed {:.2g}", state().speed);
     toggle("rotate", 'r', state().spinning);
-    toggle_beside("freeze", 'f', state().frozen);
     text(kPlain, "{} degrees about {:.2f} {:.2f} {:.2f}", degrees(state().angle), axis.x, axis.y, axis.z);
-    button("[l] about the view", key_of('l'));
-    button_beside("[0] reset", key_of('0'));
-    ImGui::SameLine();
-    text(kFaint, "[,] [.] by hand");
+    button("[0] reset", key_of('0'));
   }
 
   void help() {
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    if (std::exchange(searches_, state().searches) != state().searches) ImGui::SetKeyboardFocusHere();
-    if (ImGui::InputTextWithHint("##search", "[/] search keys and methods", filter_.InputBuf,
-                                 IM_ARRAYSIZE(filter_.InputBuf)))
-      filter_.Build();
     const auto row = [&](std::string_view name, std::string_view does) {
-      if (!filter_.PassFilter(fmt::format("{} {}", name, does).c_str())) return;
       text(kStrong, name);
       ImGui::SameLine(11.0f * em());
       text(kPlain, does);
@@ -319,25 +384,13 @@ class Panel::Contents {
   Session* session_ = nullptr;
   bool changed_ = false;
   float footer_height_ = 0.0f;
-  Magnifier magnifier_;
-  std::array<float, 120> frames_ms_{};
-  ImGuiTextFilter filter_;
-  std::uint64_t searches_ = 0;  // State::searches of the last frame
+  std::array<Image, 2> zoomed_;  // the magnifier's, until they are painted
 };
 
-Panel::Panel(int least_font_px)
-    : context_(ImGui::CreateContext()),
-      contents_(std::make_unique<Contents>()),
-      least_font_px_(least_font_px) {
+Panel::Panel() : context_(ImGui::CreateContext()), contents_(std::make_unique<Contents>()) {
   ImGuiIO& io = current_io();
   io.IniFilename = io.LogFilename = nullptr;
-  io.ConfigInputTextCursorBlink = false;
   io.BackendFlags = ImGuiBackendFlags_RendererHasVtxOffset;
-  io.KeyMap[ImGuiKey_Backspace] = static_cast<int>(Key::backspace);
-  io.KeyMap[ImGuiKey_Enter] = static_cast<int>(Key::enter);
-  io.KeyMap[ImGuiKey_Escape] = static_cast<int>(Key::escape);
-  io.KeyMap[ImGuiKey_LeftArrow] = static_cast<int>(Key::left);
-  io.KeyMap[ImGuiKey_RightArrow] = static_cast<int>(Key::right);
 }
 
 Panel::~Panel() {
@@ -349,13 +402,7 @@ ImGuiIO& Panel::current_io() {
   return ImGui::GetIO();
 }
 
-int Panel::font_px(tools::Size window) const {
-  constexpr int kLines = 1080 / 16;  // of text in a high window
-  const int px = std::min(std::max(window.height / kLines, least_font_px_), window.width / (2 * kPanelWidth));
-  return px < kFont_px ? 0 : px;
-}
-
-int Panel::width_px(tools::Size window) const {
+int Panel::width_px(tools::Size window) {
   return font_px(window) * kPanelWidth;
 }
 
@@ -394,15 +441,10 @@ const Image& Panel::show(Session& session, tools::Size window) {
   set_font(std::max(font_px(window), kFont_px));
   const int width = width_px(window);
   const Screen& screen = session.draw(window, width);
-  contents_->prepare(session);
-  // The layout settles in the second pass; a search box that gets the focus takes text from the third on.
+  // The layout settles in the second pass. The third one shows what a click changed.
   for (int pass = 0; pass < 3; ++pass) {
-    if (contents_->take_changed()) {
-      session.draw(window, width);
-      contents_->prepare(session);
-    }
+    if (contents_->take_changed()) session.draw(window, width);
     ImGui::NewFrame();
-    for (const Key key : std::exchange(released_, {})) io.KeysDown[static_cast<std::size_t>(key)] = false;
     if (std::exchange(mouse_released_, false)) io.MouseDown[0] = false;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const Label& label : screen.labels) {
@@ -412,7 +454,7 @@ const Image& Panel::show(Session& session, tools::Size window) {
       list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, rgb(20, 20, 20) & 0xA0FFFFFFu);
       list.AddText(at, label.colour, label.words.c_str());
     }
-    if (session.state().panel && width > 0) contents_->lay_out();
+    if (session.state().panel && width > 0) contents_->lay_out(session);
     ImGui::Render();
   }
   image_ = {window.width, window.height, std::move(image_.pixels)};
@@ -425,11 +467,10 @@ const Image& Panel::show(Session& session, tools::Size window) {
 }
 
 bool Panel::press(Key key) {
-  ImGuiIO& io = current_io();
-  io.KeysDown[static_cast<std::size_t>(key)] = true;
+  current_io();
   const bool closes = key == Key::escape && !context_->OpenPopupStack.empty();
   if (closes) ImGui::ClosePopupToLevel(0, false);
-  return closes || io.WantTextInput;
+  return closes;
 }
 
 bool Panel::point(Pixel to, bool held) {
@@ -443,10 +484,6 @@ bool Panel::point(Pixel to, bool held) {
 
 void Panel::scroll(float lines) {
   current_io().MouseWheel += lines;
-}
-
-void Panel::type(const char* utf8) {
-  current_io().AddInputCharactersUTF8(utf8);
 }
 
 }  // namespace edgewise::viewer

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "edgewise/image.h"
 #include "support/options.h"
@@ -18,37 +17,33 @@ namespace edgewise::viewer {
 
 class Panel {
  public:
-  static constexpr int kFont_px = 13;  // the height for which Dear ImGui's font is made
-  // A high window gets a larger font, and a narrow one a smaller font.
-  explicit Panel(int least_font_px = kFont_px);
+  Panel();
   ~Panel();
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
   // In px; 0 if the window has no room for a panel beside the picture.
-  int width_px(tools::Size window) const;
+  static int width_px(tools::Size window);
   // Draws the session's picture and the panel. The reference is valid until the next call.
   const Image& show(Session& session, tools::Size window);
 
-  // Input. The first two return whether it is for the panel; if not, it is for the session.
+  // Input. The first two return whether it is for the panel; if not, it is for the session. The panel wants
+  // Escape while a list is open.
   bool press(Key key);
   bool point(Pixel to, bool held);
-  void release(Key key) { released_.push_back(key); }
   void scroll(float lines);
-  void type(const char* utf8);
 
  private:
-  ImGuiIO& current_io();                  // makes this panel's context the current one
-  int font_px(tools::Size window) const;  // 0: no room
+  ImGuiIO& current_io();  // makes this panel's context the current one
   void set_font(int px);
 
   class Contents;
   ImGuiContext* context_;
   std::unique_ptr<Contents> contents_;
-  int least_font_px_, font_px_ = 0;
+  int font_px_ = 0;
   Image font_, image_;
   int picture_width_px_ = 0;
-  std::vector<Key> released_;  // since the last frame; Dear ImGui sees each press for one frame at least
+  // A released button is so from the second pass on, so that Dear ImGui sees each click.
   bool mouse_released_ = false, began_in_panel_ = false;
 };
 
