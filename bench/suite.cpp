@@ -37,6 +37,13 @@ tools::Source random_source(const SuiteOptions& options, std::size_t count, doub
           true};
 }
 
+// Whether the suite times coverage methods on this scene.
+bool is_timed(const lab::LabScene& scene) {
+  constexpr std::string_view kTimed[] = {"mesh_on_grid", "mesh", "torus-knot"};
+  return scene.family == lab::Family::coverage &&
+         std::find(std::begin(kTimed), std::end(kTimed), scene.name) != std::end(kTimed);
+}
+
 // Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
 // of a first attempt.
 tools::Source area_source(const SuiteOptions& options, double area_px) {
@@ -123,9 +130,8 @@ class Suite {
   void add_methods(const lab::LabScene& scene) {
     for (MethodDraw& draw : method_draws(scene)) {
       Row row;
-      row.name =
-          fmt::format("lab/{}/family:{}/method:{}/simd:{}/threads:{}", scene.name, name_of(scene.family),
-                      draw.name(), name_of(draw.execution.target), draw.execution.threads);
+      row.name = fmt::format("lab/{}/family:coverage/method:{}/simd:{}/threads:{}", scene.name,
+                             draw.method->info.name, name_of(draw.execution.target), draw.execution.threads);
       row.execution = draw.execution;
       row.method = std::move(draw);
       rows_.push_back(std::move(row));
@@ -302,10 +308,9 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
     if (options.methods)
-      for (const lab::LabScene& own : lab::own_scenes(name, stream != nullptr, [source, size] {
-             return lab::SizedDrawable{source.drawable, size};
-           }))
-        suite.add_methods(own);
+      suite.add_methods(lab::own_coverage_scene(name, [source, size] {
+        return lab::SizedDrawable{source.drawable, size};
+      }));
   };
   for (const auto& scene : options.scenes) add_named(scene);
   if (!options.scenes.empty()) return suite.take();
@@ -321,7 +326,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
-    if (scene.timed) suite.add_methods(scene);
+    if (is_timed(scene)) suite.add_methods(scene);
   for (const lab::ChoiceScene& scene : lab::choice_scenes(options.quick)) suite.add_choices(scene);
   if (!options.needs.empty()) suite.add_pipelines(options.needs);
   std::vector<Row> rows = suite.take();

@@ -164,10 +164,10 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   auto& counters = state.counters;
   if (row.peer != nullptr) state.SetLabel(row.peer_version);
   if (row.method) {
-    const MethodScene& scene = *row.method->scene;
-    counters["width"] = scene.size().width;
-    counters["height"] = scene.size().height;
-    counters["triangles"] = static_cast<double>(scene.triangles());
+    const lab::CoverageScene& scene = *row.method->scene->scene;
+    counters["width"] = scene.size.width;
+    counters["height"] = scene.size.height;
+    counters["triangles"] = static_cast<double>(scene.floats.size());
   }
   if (!row.workload) return;
   const Workload& workload = *row.workload;

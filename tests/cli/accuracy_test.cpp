@@ -10,7 +10,6 @@
 
 #include "cli/accuracy/accuracy.h"
 #include "edgewise/builtin.h"
-#include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage_support.h"
@@ -70,7 +69,6 @@ TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
 // facts_test.cpp compares all keys of small scenes with the committed ones.
 TEST(Accuracy, DescribesMethodsAndScenes) {
   const json report = json_of("drtk_quad in_view turning-cube --quick");
-  EXPECT_EQ(report.at("quick"), true);
   EXPECT_EQ(named(report.at("methods"), "fixed_8_int32").at("max_side_px"), 181);
 
   ASSERT_EQ(report.at("scenes").size(), 2u);
@@ -79,17 +77,13 @@ TEST(Accuracy, DescribesMethodsAndScenes) {
   EXPECT_EQ(quad.at("shared_crossings"), 6) << "crossings of the diagonal";
   EXPECT_NEAR(quad.at("largest_side_px").get<double>(), 6.0, 1e-4);
   EXPECT_EQ(quad.at("kind"), "small scenes");
-  EXPECT_GT(quad.at("methods").at(0).at("source").at("bound_per_million"), 0);
-  const json& wrong = named(quad.at("methods"), "float_le").at("source");
-  EXPECT_GT(wrong.at("errors_per_million"), 0);
-  EXPECT_FALSE(wrong.contains("bound_per_million"));
+  EXPECT_GT(named(quad.at("methods"), "float_le").at("source").at("errors_per_million"), 0);
 
   const json& cube = report.at("turning_cube");
   EXPECT_EQ(cube.at("frames"), 120);
   for (const json& method : cube.at("methods"))
     for (const char* count : {"gaps", "double_hits", "missing", "extra"})
-      for (const char* key : {"median", "worst", "total"})
-        EXPECT_TRUE(method.at(count).contains(key)) << key << " in " << method;
+      EXPECT_TRUE(method.at(count).contains("total")) << count << " in " << method;
   for (const json& motion : report.at("motions")) {
     EXPECT_GT(motion.at("changes"), 0) << motion.at("name");
     EXPECT_LT(named(motion.at("methods"), "double_top_left").at("superfluous").get<int>() * 8,
@@ -173,13 +167,8 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
     for (const std::string& name : exact) {
       const json& method = named(scene.at("methods"), name);
       EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
-      EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
       if (testing::find_coverage_method(name).contract_depth) {
-        EXPECT_EQ(method.at("snapped").at("unexplained_pixels"), 0) << scene.at("name") << ' ' << name;
         EXPECT_EQ(method.at("snapped").at("wrong_pixels"), 0) << scene.at("name") << ' ' << name;
-        const double pixels = scene.at("width").get<double>() * scene.at("height").get<double>();
-        EXPECT_DOUBLE_EQ(method.at("snapped").at("wrong_pixels_bound_per_million"), 3e6 / pixels);
-        EXPECT_LT(method.at("depth").at("max_ulp"), contract::kDepthError) << scene.at("name") << ' ' << name;
       }
       const json& cracks = method.at("cracks");
       EXPECT_EQ(cracks.at("gaps"), 0) << scene.at("name") << ' ' << name;
@@ -190,10 +179,6 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
   EXPECT_GT(*at_t_junction.begin(), 0);
   for (const std::string& name : exact) {
     const json& counts = named(report.at("turning_cube").at("methods"), name);
-    EXPECT_EQ(counts.at("snapped").at("missing").at("total"), 0) << name;
-    EXPECT_EQ(counts.at("snapped").at("missing").at("bound_per_frame"), 3.0 / 120);
-    EXPECT_FALSE(counts.at("missing").contains("bound_per_frame")) << "no bound, since errors were observed";
-    EXPECT_EQ(counts.at("snapped").at("extra").at("total"), 0) << name;
     EXPECT_GT(counts.at("missing").at("total"), 0) << name << ": snapping moves the outline";
     EXPECT_EQ(counts.at("gaps").at("total"), 0) << name << ": snapping opens no crack";
   }
@@ -229,7 +214,6 @@ TEST(Accuracy, MeasuresPeersInPlaceOfTheMethods) {
       EXPECT_TRUE(theirs.contains(key)) << peer->name << ' ' << key;
     EXPECT_LE(theirs.at("snapped").at("errors"), peer->exact ? 0 : 10) << peer->name;
     EXPECT_LE(theirs.at("snapped").at("wrong_pixels"), 10) << peer->name;
-    EXPECT_LE(theirs.at("depth").at("max_ulp"), 1000) << peer->name;
   }
 }
 
@@ -249,10 +233,6 @@ TEST(Accuracy, TablesFitEightyColumns) {
   plan.quick = true;
   std::string text = accuracy_tables(measure_accuracy(plan));
   EXPECT_NE(text.find("0 (<"), std::string::npos);
-  EXPECT_NE(text.find("over half of the errors are on lattice_square, of float_le, float_lt\n"
-                      "  without it:\n  scanline 0 (<83333), "),
-            std::string::npos);
-  EXPECT_NE(text.find(" float_lt 166667"), std::string::npos) << "6 of 36 crossings of the other scene";
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     EXPECT_LE(end, 80u) << text.substr(0, end);

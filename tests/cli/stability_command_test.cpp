@@ -35,10 +35,9 @@ TEST(StabilityCommand, TableAndJsonHaveTheSameResults) {
   EXPECT_LT(table.out.find("cycle (visibility)"), table.out.find("legs_on_our_grid (coverage)"));
   EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8_int32 +182 "))) << table.out;
   // 3 / 39,442: the fewest edge crossings at a value.
-  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8 +never +< 76 +0/17\n"))) << table.out;
+  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8 +never +< 76\n"))) << table.out;
 
   const auto json = nlohmann::json::parse(file_content(path));
-  EXPECT_EQ(json.at("quick"), true);
   ASSERT_EQ(json.at("sweeps").size(), 2u);
   EXPECT_EQ(json["sweeps"][1],
             sweep_json(run_sweep(lab::find_sweep("legs_on_our_grid"), lab::kQuick, 1, [] {})));

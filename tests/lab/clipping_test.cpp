@@ -30,7 +30,7 @@ ClippingScore judge(std::string_view name, const ClippingScene& scene) {
 }
 
 TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {
-  std::map<std::string_view, std::uint64_t> wrong, moved;
+  std::map<std::string_view, std::uint64_t> wrong;
   for (const auto& c : clipping_cases()) {
     const ClippingScene scene = c.make();
     const auto truth = clipping_truth(scene);
@@ -42,13 +42,9 @@ TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {
         EXPECT_LE(s.hairline, s.covered / 100) << m.info.name << " on " << c.name;
       }
       wrong[m.info.name] += s.wrong();
-      moved[m.info.name] += s.differs_from_ours;
     }
   }
-  for (const auto& m : clipping_methods()) {
-    EXPECT_EQ(wrong[m.info.name] == 0, m.info.exact) << m.info.name;
-    EXPECT_EQ(moved[m.info.name] == 0, m.info.exact) << m.info.name;
-  }
+  for (const auto& m : clipping_methods()) EXPECT_EQ(wrong[m.info.name] == 0, m.info.exact) << m.info.name;
 }
 
 TEST(Clipping, APictureIsCorrectedWhereItDiffersBeyondHairline) {
@@ -82,13 +78,6 @@ TEST(Clipping, AFloorUnderTheCameraNeedsClipping) {
   }
 }
 
-TEST(Clipping, DividingByZeroIsCaughtAndCounted) {
-  const auto s = judge("none", make_case("vertex_at_eye_plane"));
-  EXPECT_EQ(s.not_a_number, 2u);
-  EXPECT_EQ(judge("near_guard", make_case("vertex_at_eye_plane")).not_a_number, 0u);
-  EXPECT_GT(judge("none", make_case("beyond_the_guard_band")).out_of_range, 0u);
-}
-
 TEST(Clipping, QuadsNearerThanTheNearPlaneAreNotDrawn) {
   const ClippingScene scene = make_case("quads_before_near");
   const auto truth = clipping_truth(scene);
@@ -96,11 +85,8 @@ TEST(Clipping, QuadsNearerThanTheNearPlaneAreNotDrawn) {
                           [](auto triangle) { return triangle < 2 || triangle == kNoTriangle; }));
   for (const auto name : {"near_guard", "screen_edges", "discard_behind"})
     EXPECT_EQ(score(method(name), scene, truth).wrong(), 0u) << name;
-  for (const auto name : {"near_too_near", "none"}) {
-    const auto s = score(method(name), scene, truth);
-    EXPECT_GT(s.wrong_triangle, 100u) << name;
-    EXPECT_EQ(s.out_of_range, 12u) << name;
-  }
+  for (const auto name : {"near_too_near", "none"})
+    EXPECT_GT(score(method(name), scene, truth).wrong_triangle, 100u) << name;
 }
 
 // The pixels in which a method differs from ours, which does not clip at the screen's edges.

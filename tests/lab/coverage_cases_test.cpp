@@ -82,7 +82,7 @@ TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {
   EXPECT_EQ(against_floats("double_top_left", tie).extra, 64u);
 }
 
-// ---- Visible triangles and depths, checked by hand, by brute force, and by rule 6
+// ---- Visible triangles, checked by hand and by rule 6
 
 VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
   return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid},
@@ -98,15 +98,14 @@ TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
   EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
 }
 
-TEST(CoverageVisibleTriangles, OfBackendsAreExactAndDepthsSatisfyRuleSix) {
+TEST(CoverageVisibleTriangles, OfBackendsAreExact) {
   for (const CoverageCase& c : coverage_cases()) {
     const Picture& picture = picture_of(c.name);
     const VisibleTriangleJudge judge({c.size, picture.floats, picture.grid}, picture.cracks.surface(), 2);
     for (const auto& backend : backends()) {
       const VisibleTriangleScore score = judge.score(find_coverage_method(backend.name));
       EXPECT_EQ(score.wrong_snapped, 0u) << backend.name << " in " << c.name;
-      EXPECT_LT(score.max_ulp, contract::kDepthError) << backend.name << " in " << c.name;
-      EXPECT_LE(score.rms_ulp, score.max_ulp) << backend.name << " in " << c.name;
+      EXPECT_EQ(score.unexplained, 0u) << backend.name << " in " << c.name;
     }
   }
 }
@@ -121,32 +120,6 @@ TEST(CoverageVisibleTriangles, OfBackendsErrOnlyWithinTheDepthErrorOfRuleSix) {
       EXPECT_EQ(visible_triangles_of(backend.name, picture).unexplained, 0u)
           << backend.name << " in " << family;
   }
-}
-
-TEST(CoverageVisibleTriangles, DepthErrorsInUlpMatchBruteForce) {
-  const Picture picture({{{{3.3f, 60.1f, 20.7f}, {2.9f, 13.2f, 58.8f}, {0.1f, 0.7f, 0.45f}}, 1}}, {64, 64});
-  const CoverageMethod& method = find_coverage_method("float_top_left");
-  Canvas canvas(64, 64);
-  method.draw(picture.input, canvas, {});
-  const FloatTruth truth(picture.floats[0].at);
-  double most = 0.0, squares = 0.0;
-  int count = 0;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) {
-      if (!truth.covers(x, y)) continue;
-      const double exact = truth.depth(x, y).get_d();
-      const auto nearest = static_cast<float>(exact);
-      const double drawn = double{canvas.depth[static_cast<std::size_t>(y * canvas.frame.stride() + x)]};
-      const double ulp = double{std::nextafter(nearest, 1.0f)} - double{nearest};
-      most = std::max(most, std::abs(drawn - exact) / ulp);
-      squares += (drawn - exact) * (drawn - exact) / (ulp * ulp);
-      ++count;
-    }
-  const VisibleTriangleScore score = visible_triangles_of("float_top_left", picture);
-  EXPECT_GT(most, 0.5);
-  EXPECT_NEAR(score.max_ulp, most, 1e-6);
-  EXPECT_NEAR(score.rms_ulp, std::sqrt(squares / count), 1e-6);
-  EXPECT_EQ(score.wrong_source, 0u);
 }
 
 }  // namespace

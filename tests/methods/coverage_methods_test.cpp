@@ -242,11 +242,6 @@ TEST_P(EveryCoverageForm, DrawsTrianglesThatReachFarOutOfTheImage) {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageForm, ::testing::ValuesIn(names_of(coverage_methods())),
                          [](const auto& param) { return testing::test_name(param); });
 
-TEST(CoverageForms, MethodsWithoutSimdFormSayWhy) {
-  for (const CoverageMethod& method : coverage_methods())
-    EXPECT_EQ(method.simd, method.simd_note.empty()) << method.info.name;
-}
-
 TEST(CoverageRegistry, HoldsEveryBackendAndTheTableOnce) {
   std::multiset<std::string_view> names;
   for (const auto& method : coverage_methods()) names.insert(method.info.name);

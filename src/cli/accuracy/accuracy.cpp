@@ -58,7 +58,7 @@ std::vector<lab::LabScene> scenes_of_file(const std::string& path, const Accurac
     Shot shot = load_shot(path, options, 0.0);
     return lab::SizedDrawable{std::move(shot.source.drawable), {shot.frontend.width, shot.frontend.height}};
   };
-  return lab::own_scenes(source_name(path), is_stream_file(path), load, plan.subpixel_bits);
+  return lab::own_scenes(source_name(path), is_stream_file(path), load);
 }
 
 [[noreturn]] void reject(const std::string& name, const std::vector<lab::LabScene>& known) {
@@ -68,23 +68,6 @@ std::vector<lab::LabScene> scenes_of_file(const std::string& path, const Accurac
   names.push_back(kTurningCube);
   names.push_back(kChoice);
   throw std::invalid_argument(unknown_name("scene", name, names));
-}
-
-// Whether a method broke a promise that holds on every scene: for exact coverage methods, no error against
-// the snapped reference.
-bool broke_promise(const MethodResult& method) {
-  struct Visit {
-    bool exact;
-    bool operator()(const CoverageScores& s) const {
-      return s.visible.unexplained != 0 ||
-             (exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
-    }
-    bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }
-    bool operator()(const lab::FacingScores& s) const { return s.broken != 0; }
-    bool operator()(const lab::ClippingScore& s) const { return s.broken != 0; }
-    bool operator()(const lab::ProjectionScore& s) const { return exact && s.by_projection != 0; }
-  };
-  return std::visit(Visit{method.exact}, method.score);
 }
 
 class Run {
@@ -148,6 +131,20 @@ class Run {
 
 }  // namespace
 
+// For exact coverage methods, no error against the snapped reference.
+bool broke_promise(const MethodResult& method) {
+  struct Visit {
+    bool exact;
+    bool operator()(const CoverageScores& s) const {
+      return s.visible.unexplained != 0 ||
+             (exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
+    }
+    bool operator()(const lab::ProjectionScore& s) const { return exact && s.by_projection != 0; }
+    bool operator()(const auto& s) const { return s.broken != 0; }
+  };
+  return std::visit(Visit{method.exact}, method.score);
+}
+
 std::size_t ChosenMethods::count(Family family) const {
   const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size(),
                                 projection.size()};
@@ -162,11 +159,6 @@ std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() cons
   for (const auto* method : clipping) list.emplace_back(Family::clipping, &method->info);
   for (const auto* method : projection) list.emplace_back(Family::projection, &method->info);
   return list;
-}
-
-const lab::CoverageMethod& ChosenMethods::find_coverage(std::string_view name) const {
-  return **std::find_if(coverage.begin(), coverage.end(),
-                        [&](const lab::CoverageMethod* method) { return method->info.name == name; });
 }
 
 ChosenMethods methods_of(const AccuracyPlan& plan) {
@@ -185,7 +177,7 @@ ChosenMethods methods_of(const AccuracyPlan& plan) {
 }
 
 AccuracyScenes scenes_of(const AccuracyPlan& plan) {
-  const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick, plan.subpixel_bits);
+  const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick);
   AccuracyScenes chosen;
   chosen.turning_cube = chosen.choice = plan.scenes.empty();
   if (plan.scenes.empty())
@@ -224,7 +216,7 @@ std::string closeup_name(Family family, std::string_view scene, std::string_view
 bool AccuracyReport::ok() const {
   if (turning_cube)
     for (const CubeMethodResult& method : turning_cube->methods)
-      if (method.exact && method.snapped.missing.total + method.snapped.extra.total != 0) return false;
+      if (method.exact && method.wrong_snapped != 0) return false;
   return std::all_of(scenes.begin(), scenes.end(), [](const SceneResult& scene) {
     return std::none_of(scene.methods.begin(), scene.methods.end(), broke_promise);
   });

@@ -25,7 +25,6 @@ struct AccuracyPlan {
   std::vector<std::string> scenes;   // names or paths; none: the built-in default scenes
   std::vector<std::string> methods;  // none: all
   std::optional<Family> family;      // none: all
-  int subpixel_bits = 8;             // of the backends' positions
   bool quick = false;                // small sizes, few frames
   bool fit = false;                  // see load_source
   bool pictures = false;             // whether to keep close-ups of errors
@@ -57,6 +56,8 @@ struct MethodResult {
   bool exact;
   Score score;
 };
+// Whether it broke a promise that holds on every scene.
+bool broke_promise(const MethodResult& method);
 
 // What no rate sums: small scenes that show one failure each; and of coverage, meshes, single triangles,
 // which have an outline only, and scenes whose vertices all lie on the grid of 1/256 px, where ours round
@@ -87,17 +88,11 @@ struct SceneResult {
   }
 };
 
-struct PerFrame {
-  std::uint64_t median = 0, worst = 0, total = 0;
-};
-struct CubeCounts {
-  PerFrame missing, extra;
-};
+// Of all frames; against the source, and `wrong_snapped` against the snapped positions.
 struct CubeMethodResult {
   std::string name;
   bool exact;
-  CubeCounts snapped, source;  // against each reference
-  PerFrame gaps, double_hits;
+  std::uint64_t gaps = 0, double_hits = 0, missing = 0, extra = 0, wrong_snapped = 0;
 };
 struct CubeResult {
   int frames, width, height;

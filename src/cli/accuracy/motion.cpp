@@ -19,46 +19,34 @@ constexpr int kCubeFrames = 3600, kQuickCubeFrames = 120, kCubeFramesPerTask = 2
 constexpr int kMotionFrames = 24, kQuickMotionFrames = 6;
 constexpr std::string_view kMovingScenes[] = {"torus-knot", "terrain"};
 
-lab::CoverageScene scene_at(std::string_view name, int frame, int subpixel_bits) {
+lab::CoverageScene scene_at(std::string_view name, int frame) {
   const float seconds = static_cast<float>(frame) / static_cast<float>(kFramesPerSecond);
   return lab::coverage_scene(find_scene(name).make({kSize.width, kSize.height, seconds}),
-                             {.width = kSize.width, .height = kSize.height, .subpixel_bits = subpixel_bits});
-}
-
-// The median of an even number of frames is the upper of the middle two.
-PerFrame per_frame(std::vector<std::uint64_t> counts) {
-  PerFrame result;
-  for (const std::uint64_t n : counts) result.total += n;
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  result.median = *middle;
-  result.worst = *std::max_element(counts.begin(), counts.end());
-  return result;
+                             {.width = kSize.width, .height = kSize.height});
 }
 
 using Scores = std::vector<CoverageScores>;  // one per frame
 
-template <typename Part, typename Counts>
-PerFrame summary(const Scores& scores, Part CoverageScores::*part, std::uint64_t Counts::*count) {
-  std::vector<std::uint64_t> counts;
-  for (const CoverageScores& score : scores) counts.push_back(score.*part.*count);
-  return per_frame(std::move(counts));
-}
-CubeCounts wrong(const Scores& scores, lab::CoverageScore CoverageScores::*truth) {
-  return {summary(scores, truth, &lab::CoverageScore::missing),
-          summary(scores, truth, &lab::CoverageScore::extra)};
+CubeMethodResult summed(const lab::MethodInfo& method, const Scores& scores) {
+  CubeMethodResult sum{std::string(method.name), method.exact};
+  for (const CoverageScores& score : scores) {
+    sum.gaps += score.cracks.gaps, sum.double_hits += score.cracks.double_hits;
+    sum.missing += score.source.missing, sum.extra += score.source.extra;
+    sum.wrong_snapped += score.snapped.errors();
+  }
+  return sum;
 }
 
 // The frame with the most cracks.
-Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores, int subpixel_bits) {
+Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
   const auto worst = std::max_element(scores.begin(), scores.end(), [](const auto& a, const auto& b) {
     return a.cracks.gaps + a.cracks.double_hits < b.cracks.gaps + b.cracks.double_hits;
   });
-  const lab::CoverageScene scene = scene_at("cube", static_cast<int>(worst - scores.begin()), subpixel_bits);
+  const lab::CoverageScene scene = scene_at("cube", static_cast<int>(worst - scores.begin()));
   const lab::SourceJudge source(scene, 1);
   const lab::DrawnRuns drawn(method, scene.input(), scene.window());
   const lab::Cracks cracks =
-      lab::CrackJudge(scene.floats, source.floats()).find(drawn, scene.snap_bits(method));
+      lab::CrackJudge(scene.floats, source.floats()).find(drawn, method.promise.snap_bits);
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
                  mark_coverage(source.truth(), source.of_sources(drawn), cracks, source.source()));
 }
@@ -74,7 +62,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   int done = 0;
   parallel_for(plan.threads, frames / kCubeFramesPerTask, [&](int task) {
     for (int frame = task * kCubeFramesPerTask; frame < (task + 1) * kCubeFramesPerTask; ++frame) {
-      const lab::CoverageScene scene = scene_at("cube", frame, plan.subpixel_bits);
+      const lab::CoverageScene scene = scene_at("cube", frame);
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1);
       const lab::SourceJudge source(scene, 1);
       const lab::CrackJudge cracks(scene.floats, source.floats());
@@ -83,7 +71,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
         scores[i][static_cast<std::size_t>(frame)] = {
             lab::score_coverage(snapped, drawn, scene.floats),
             source.score(drawn),
-            CrackCounts(cracks.find(drawn, scene.snap_bits(*judged[i]))),
+            CrackCounts(cracks.find(drawn, judged[i]->promise.snap_bits)),
             {}};
       }
     }
@@ -95,14 +83,9 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   CubeResult result{frames, kSize.width, kSize.height, {}};
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const lab::CoverageMethod& method = *judged[i];
-    result.methods.push_back({std::string(method.info.name), is_exact(method, plan.subpixel_bits),
-                              wrong(scores[i], &CoverageScores::snapped),
-                              wrong(scores[i], &CoverageScores::source),
-                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::gaps),
-                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::double_hits)});
-    const CubeMethodResult& counts = result.methods.back();
-    if (plan.pictures && counts.gaps.total + counts.double_hits.total != 0)
-      add_unless_known(worst_frame(method, scores[i], plan.subpixel_bits), closeups, first_closeup);
+    const CubeMethodResult& counts = result.methods.emplace_back(summed(method.info, scores[i]));
+    if (plan.pictures && counts.gaps + counts.double_hits != 0)
+      add_unless_known(worst_frame(method, scores[i]), closeups, first_closeup);
   }
   return result;
 }
@@ -119,7 +102,7 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
     for (std::size_t i = 0; i < judged.size(); ++i)
       canvases.push_back(std::make_unique<lab::Canvas>(kSize.width, kSize.height));
     for (int frame = 0; frame < frames; ++frame) {
-      lab::CoverageScene scene = scene_at(name, frame, plan.subpixel_bits);
+      lab::CoverageScene scene = scene_at(name, frame);
       for (std::size_t i = 0; i < scene.floats.size(); ++i)  // ids from 1; 0 is the background
         ++scene.floats[i].payload, ++scene.snapped[i].payload;
       auto visible = scene.truth->visible_triangles(scene.window(), plan.threads).triangle;

@@ -18,14 +18,8 @@ struct ChosenMethods {
 
   std::size_t count(Family family) const;
   std::vector<std::pair<Family, const lab::MethodInfo*>> all() const;
-  const lab::CoverageMethod& find_coverage(std::string_view name) const;  // of a chosen method
 };
 ChosenMethods methods_of(const AccuracyPlan& plan);
-
-// Whether a method covers positions of so many bits exactly. Those of others than backends have 8.
-inline bool is_exact(const lab::CoverageMethod& method, int subpixel_bits) {
-  return method.info.exact && (method.backend || subpixel_bits == 8);
-}
 
 // The inputs of judge() and its sinks for progress and close-ups. `progress` is called from several threads,
 // but never concurrently.

@@ -147,21 +147,17 @@ std::uint64_t correct(std::span<std::uint32_t> picture, Size size, const Clippin
 }
 
 ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, const ClippingTruth& truth) {
-  ClippingFrame frame(scene.size), ours(scene.size);
+  ClippingFrame frame(scene.size);
   method.draw(scene, frame);
-  clipping_methods().front().draw(scene, ours);
   Scorer scorer(scene, truth);
   auto visible_it = truth.visible.begin();
   for (int y = 0; y < scene.size.height; ++y)
     for (int x = 0; x < scene.size.width; ++x, ++visible_it) {
       const std::uint32_t drawn = frame.picture.payload_row(y)[x];
-      if (drawn != ours.picture.payload_row(y)[x]) ++scorer.score.differs_from_ours;
       const double stored = static_cast<double>(frame.picture.depth_row(y)[x]) - contract::kDepthHead;
       scorer.add(x, y, drawn, *visible_it, stored / contract::kDepthRange);
     }
   ClippingScore& score = scorer.score;
-  score.not_a_number = frame.not_a_number;
-  score.out_of_range = frame.out_of_range;
   if (promises(method, scene)) score.broken = score.wrong() - score.depth_ties;
   return score;
 }

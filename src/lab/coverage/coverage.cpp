@@ -66,8 +66,7 @@ std::int32_t to_q15(float px, int bits) {
 }
 
 CoverageMethod make_from(const BackendInfo& backend, bool fills) {
-  const bool scalar_only = backend.name == "naive";  // ignores Execution::target
-  constexpr double kSnap = 0.00277;                  // half a sub-unit on both axes: sqrt(2) / 512
+  constexpr double kSnap = 0.00277;  // half a sub-unit on both axes: sqrt(2) / 512
   return {
       {backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
        true},
@@ -82,8 +81,7 @@ CoverageMethod make_from(const BackendInfo& backend, bool fills) {
       true,
       true,
       fills,
-      !scalar_only,
-      scalar_only ? "scalar on purpose: the plainest implementation of the contract" : ""};
+      backend.name != "naive"};  // which ignores Execution::target
 }
 
 }  // namespace
@@ -189,8 +187,7 @@ CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions
   const auto screen = frontend.run(drawable, options);
   CoverageScene scene{{options.width, options.height},
                       unsnapped(screen, frontend.unsnapped()),
-                      {screen.begin(), screen.end()},
-                      options.subpixel_bits};
+                      {screen.begin(), screen.end()}};
   if (cull != Cull::none)
     scene.keep_if([&](std::size_t i) { return keeps(cull, FloatTruth(scene.floats[i].at).facing()); });
   return scene;

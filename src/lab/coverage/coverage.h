@@ -83,10 +83,8 @@ struct CoverageMethod {
   bool contract_depth = false;  // draw writes the frame's depths, in units of rule 6
   bool backend = false;         // of the library: takes snapped positions of any subpixel bits
   bool fills = true;            // false for backends that do not fill triangles; these are not scored
-  // Whether draw uses the execution's SIMD target. If not, `simd_note` says why a SIMD form is missing.
-  bool simd = false;
-  std::string_view simd_note = {};
-  bool one_thread = false;  // all functions must run on one thread: an OpenGL context belongs to a thread
+  bool simd = false;            // draw uses the execution's SIMD target
+  bool one_thread = false;      // all functions must run on one thread: an OpenGL context belongs to a thread
 };
 
 // The methods of methods.cpp.
@@ -120,7 +118,6 @@ struct CoverageScene {
   Size size;
   std::vector<FloatTriangle> floats;
   std::vector<ScreenTriangle> snapped;
-  int subpixel_bits = 8;  // of these
   // Of a scene with a camera, from whose vertices a front end made these triangles: its truth, and of each of
   // them the triangle in it. Otherwise null and empty: the floats themselves are the source.
   std::shared_ptr<const SceneTruth> truth = nullptr;
@@ -128,10 +125,6 @@ struct CoverageScene {
 
   CoverageInput input() const { return {floats, snapped}; }
   Window window() const { return {size.width, size.height}; }
-  // The bits to which a method rounds positions on this scene: see CoveragePromise::snap_bits.
-  std::optional<int> snap_bits(const CoverageMethod& method) const {
-    return method.backend ? subpixel_bits : method.promise.snap_bits;
-  }
   // Drops the triangles for whose index keep() is false. Before there are `sources`.
   void keep_if(const std::function<bool(std::size_t)>& keep);
 };

@@ -1,8 +1,6 @@
 #include "lab/coverage/visible.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "edgewise/contract.h"
@@ -11,12 +9,6 @@
 namespace edgewise::lab {
 
 namespace {
-
-double float_ulp(double depth01) {
-  constexpr double kLeast = 0x1p-8;
-  const auto size = static_cast<float>(std::max(std::abs(depth01), kLeast));
-  return std::ldexp(1.0, std::ilogb(size) - (std::numeric_limits<float>::digits - 1));
-}
 
 template <typename Visit>
 void each_pixel(Size size, Visit&& visit) {
@@ -38,23 +30,6 @@ std::uint64_t wrong_pixels(const Canvas& canvas, const VisibleTriangles& truth, 
     on_wrong(drawn, expected);
   });
   return wrong;
-}
-
-// error(x, y, exact) returns an error in ulps.
-template <typename Number, typename Error>
-void add_depth_errors(VisibleTriangleScore& score, const Canvas& canvas, const VisibleTriangles& truth,
-                      Number&& number, Error&& error) {
-  double squares = 0.0;
-  std::uint64_t count = 0;
-  each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
-    const std::uint32_t visible_id = truth.triangle[pixel];
-    if (visible_id == kNoTriangle || number(canvas.frame.payload_row(y)[x]) != visible_id) return;
-    const double ulp = error(x, y, truth.depth[pixel]);
-    score.max_ulp = std::max(score.max_ulp, ulp);
-    squares += ulp * ulp;
-    ++count;
-  });
-  if (count > 0) score.rms_ulp = std::sqrt(squares / static_cast<double>(count));
 }
 
 enum class Shown : std::uint8_t { background, single, mesh };
@@ -127,17 +102,7 @@ VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) c
                                                   : Shown::single);
   });
   score.slits = slits_of(picture, scene_.size);
-  if (method.contract_depth) {
-    add_depth_errors(score, canvas, by_grid_, in_scene, [&](int x, int y, double exact) {
-      return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);
-    });
-    if (method.info.exact) score.unexplained = unexplained(canvas);
-  } else {
-    add_depth_errors(score, canvas, by_source_, in_source, [&](int x, int y, double exact) {
-      return std::abs(double{canvas.depth[static_cast<std::size_t>(y * canvas.frame.stride() + x)]} - exact) /
-             float_ulp(exact);
-    });
-  }
+  if (method.contract_depth && method.info.exact) score.unexplained = unexplained(canvas);
   return score;
 }
 

@@ -1,5 +1,5 @@
-// Scores a coverage method's whole picture: the visible triangle of each pixel, and its depth. Coverage alone
-// does not determine these: a lost pixel of an occluded triangle is invisible, and a depth plane evaluated in
+// Scores a coverage method's whole picture: the visible triangle of each pixel. Coverage alone does not
+// determine it: a lost pixel of an occluded triangle is invisible, and a depth plane evaluated in
 // floats may show the wrong triangle.
 #pragma once
 
@@ -26,10 +26,6 @@ struct VisibleTriangleScore {
   // not explain. The drawn triangle does not cover them, or lies farther behind the visible one than both
   // errors together.
   std::uint64_t unexplained = 0;
-  // Depth errors at pixels that show the right triangle. For methods that write contract depths: against the
-  // snapped truth, in units of rule 6 (2^-31 of the range). For all others: against the source, in float
-  // ulps at the exact depth, or at 2^-8 if that is nearer to 0.
-  double max_ulp = 0.0, rms_ulp = 0.0;
 
   bool operator==(const VisibleTriangleScore&) const = default;
 };

@@ -196,12 +196,10 @@ std::vector<FaceFacts> facing_facts(const FacingScene& scene) {
 }
 
 FacingScores score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts) {
-  std::vector<std::uint8_t> kept(scene.faces.size()), ours(kept.size());
+  std::vector<std::uint8_t> kept(scene.faces.size());
   method.classify(scene, kept);
-  facing_methods().front().classify(scene, ours);
   FacingScores scores;
   for (std::size_t i = 0; i < facts.size(); ++i) {
-    if (kept[i] != ours[i]) ++scores.disagreements;
     const auto add = [&](FacingScore& score, const FaceSide& side, bool may_err) {
       const bool misled = method.by_normal ? facts[i].normal_differs : side.first_three_differ;
       if (!side.covers_sample) return;

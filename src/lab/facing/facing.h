@@ -115,7 +115,6 @@ struct FacingScore {
 };
 struct FacingScores {
   FacingScore snapped, source;
-  std::uint64_t disagreements = 0;  // with the first method (ours), of all faces
   // Broken promises, without misled ones: misclassified against the source though may_err is false, or
   // by an exact method against the snapped truth.
   std::uint64_t broken = 0;

@@ -81,7 +81,6 @@ std::vector<CoverageMethod> peer_methods(const StartedPeers& started) {
          .runs = [peer = peer](const CoverageInput& input, Window window,
                                std::vector<Run>& runs) { append_peer_runs(*peer, input, window, runs); },
          .threaded = peer->most_threads > 1,
-         .simd_note = "it chooses its own vectors",
          .one_thread = true});
   }
   return list;

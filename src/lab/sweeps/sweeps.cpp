@@ -49,13 +49,8 @@ const Sweep& find_sweep(std::string_view name) {
 
 std::optional<double> SweepResult::starts_to_fail(std::size_t method) const {
   for (std::size_t position = 0; position < at.size(); ++position)
-    if (fails(method, position)) return sweep->positions[position];
+    if (at[position].methods[method].rate() > 1e-4) return sweep->positions[position];
   return std::nullopt;
-}
-
-double SweepResult::y(const Tally& tally) const {
-  if (tally.trials == 0) return 0.0;
-  return sweep->y.scale * static_cast<double>(tally.errors) / static_cast<double>(tally.trials);
 }
 
 Measured measure(const Sweep& sweep, double position, Effort effort) {
