@@ -473,8 +473,7 @@ TEST(Program, NeedsFits80ColumnsAndGivesItsEvidence) {
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   for (const char* part : {"least precise of 1836 pipelines, at most 9 wrong pixels in each frame",
-                           "proven: the nearest vertex is at ", "depth formats, near 0.1, far 100",
-                           "edge values at 8 ", " in frame 0: at ("})
+                           "proven: the nearest vertex is at ", "edge values at 8 ", " in frame 0: at ("})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
   EXPECT_EQ(outcome.out.find("fast"), std::string::npos) << "nothing was timed";
 }
@@ -497,7 +496,7 @@ TEST(Program, NeedsFollowsMotionAndOrbit) {
 TEST(Program, NeedsTurnsACameraThatIsStraightAbove) {
   for (const char* eye : {"0,6,0", "-0,-6,0"}) {
     const Outcome outcome =
-        edgewise_with("needs cube --size 96x54 --json --orbit 3 --ranges --eye " + std::string(eye));
+        edgewise_with("needs cube --size 16x9 --json --orbit 3 --eye " + std::string(eye));
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(nlohmann::json::parse(outcome.out).at("frames"), 3);
   }
@@ -517,23 +516,6 @@ TEST_F(ProgramRenders, AnEmptyPictureAndSaysWhy) {
   }
   EXPECT_EQ(edgewise_with("render cube -o " + path("a.ppm")).err, "");
   EXPECT_EQ(edgewise_with("render cube --wireframe -o " + path("a.ppm")).err, "");
-}
-
-TEST(Program, NeedsByRangesAlone) {
-  const Outcome text = edgewise_with("needs terrain grid64 --ranges --size 160x90");
-  ASSERT_EQ(text.status, 0) << text.err;
-  EXPECT_NE(text.out.find("triangles beyond it: "), std::string::npos) << text.out;
-  const auto json = nlohmann::json::parse(edgewise_with("needs cube --ranges --json").out);
-  EXPECT_EQ(json.at("reach").at("near plane").at("beyond"), 0);
-  EXPECT_EQ(json.at("edge_value_bits").size(), 17u);
-}
-
-TEST_F(ProgramRenders, WhatIsNotEnoughAsCloseups) {
-  const Outcome outcome =
-      edgewise_with("needs cubes --size 96x54 --tolerance 5 --pictures " + path("errors"));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-visibility-painter_farthest.png")));
-  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-facing_test-normal_dot_object.png")));
 }
 
 TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {

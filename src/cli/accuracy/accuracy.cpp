@@ -133,16 +133,18 @@ class Run {
 
 // For exact coverage methods, no error against the snapped reference.
 bool broke_promise(const MethodResult& method) {
-  struct Visit {
-    bool exact;
-    bool operator()(const CoverageScores& s) const {
-      return s.visible.unexplained != 0 ||
-             (exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
-    }
-    bool operator()(const lab::ProjectionScore& s) const { return exact && s.by_projection != 0; }
-    bool operator()(const auto& s) const { return s.broken != 0; }
-  };
-  return std::visit(Visit{method.exact}, method.score);
+  return std::visit(
+      [&](const auto& s) {
+        using Of = std::decay_t<decltype(s)>;
+        if constexpr (std::is_same_v<Of, CoverageScores>)
+          return s.visible.unexplained != 0 ||
+                 (method.exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
+        else if constexpr (std::is_same_v<Of, lab::ProjectionScore>)
+          return method.exact && s.by_projection != 0;
+        else
+          return s.broken != 0;
+      },
+      method.score);
 }
 
 std::size_t ChosenMethods::count(Family family) const {
