@@ -18,18 +18,14 @@ struct SceneExtent {
   std::string_view name;
   Size size, quick_size;
   double scale, quick_scale;  // of scalable scenes
-  double cost_s, quick_cost_s;
 };
 constexpr SceneExtent kExtents[] = {
-    {"torus-knot", kFullHd, kFullHd, 1, 1, 3.4, 2.2},
-    {"medium", kFullHd, kNormalSize, 0.15, 0.1, 2, 0.5},
-    {"small", kFullHd, kNormalSize, 0.15, 0.05, 2.5, 0.5},
-    {"micro", kFullHd, kNormalSize, 0.15, 0.05, 2, 0.5},
-    {"large", kFullHd, kNormalSize, 0.4, 0.1, 1, 0.3},
-    {"sliver", kFullHd, kNormalSize, 0.02, 0.02, 2, 1},
-    {"knots", kFullHd, kNormalSize, 0.1, 0.02, 4, 1},
+    {"torus-knot", kFullHd, kFullHd, 1, 1},      {"medium", kFullHd, kNormalSize, 0.15, 0.1},
+    {"small", kFullHd, kNormalSize, 0.15, 0.05}, {"micro", kFullHd, kNormalSize, 0.15, 0.05},
+    {"large", kFullHd, kNormalSize, 0.4, 0.1},   {"sliver", kFullHd, kNormalSize, 0.02, 0.02},
+    {"knots", kFullHd, kNormalSize, 0.1, 0.02},
 };
-constexpr SceneExtent kNormalExtent{"", kFullHd, kNormalSize, 1, 1, 1, 0.3};
+constexpr SceneExtent kNormalExtent{"", kFullHd, kNormalSize, 1, 1};
 
 SceneExtent extent_of(std::string_view name) {
   for (const SceneExtent& extent : kExtents)
@@ -105,8 +101,7 @@ class Catalogue {
   std::vector<LabScene> built_in() {
     for (const CoverageCase& c : coverage_cases()) {
       const bool small = c.size.width < 1000;
-      const double cost_s = small ? 0.1 : quick_ ? 1.0 : 6.0;
-      add(Family::coverage, c.name, c.summary, small, cost_s, [&c] {
+      add(Family::coverage, c.name, c.summary, small, [&c] {
         auto floats = c.make();
         auto rounded = snapped(floats);
         return CoverageScene{c.size, std::move(floats), std::move(rounded)};
@@ -114,22 +109,21 @@ class Catalogue {
     }
     const Size seen = quick_ ? kQuick : kNormalSize;
     add(Family::visibility, "deep_soup", "20,000 intersecting triangles, near and far", false,
-        quick_ ? 0.5 : 3.0, [seen] { return visibility_scene(deep_soup(20'000), seen); });
+        [seen] { return visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
     add_projection("fine_sphere", "a sphere of 128 x 192 cells, near the camera",
-                   quick_ ? kNormalSize : kFullHd, quick_ ? 0.5 : 2.0, [quick = quick_](int frame) {
+                   quick_ ? kNormalSize : kFullHd, [quick = quick_](int frame) {
                      Scene scene = quick ? sphere_scene(32, 48) : sphere_scene(128, 192);
                      scene.instances.front().angle = static_cast<float>(frame);
                      return scene;
                    });
     for (const VisibilityCase& c : visibility_cases())
-      add(Family::visibility, c.name, c.summary, true, 0.1, c.make);
-    for (const FacingCase& c : facing_cases()) add(Family::facing, c.name, c.summary, true, 0.1, c.make);
+      add(Family::visibility, c.name, c.summary, true, c.make);
+    for (const FacingCase& c : facing_cases()) add(Family::facing, c.name, c.summary, true, c.make);
     add_facing();
-    for (const ClippingCase& c : clipping_cases())
-      add(Family::clipping, c.name, c.summary, true, 0.2, c.make);
+    for (const ClippingCase& c : clipping_cases()) add(Family::clipping, c.name, c.summary, true, c.make);
     add(Family::clipping, "around_the_eye", "triangles on all sides, across the near and the far plane",
-        false, quick_ ? 2.0 : 5.0, [quick = quick_] {
+        false, [quick = quick_] {
           return quick ? around_the_camera(5000, kQuick) : around_the_camera(20'000, kNormalSize);
         });
     // Group by family, in the order of the tables.
@@ -140,36 +134,34 @@ class Catalogue {
 
  private:
   template <typename Make>
-  void add(Family family, std::string_view name, std::string_view summary, bool small, double cost_s,
-           Make make) {
-    list_.push_back({family, std::string(name), std::string(summary), small, cost_s,
-                     [make] { return AnyScene(make()); }});
+  void add(Family family, std::string_view name, std::string_view summary, bool small, Make make) {
+    list_.push_back(
+        {family, std::string(name), std::string(summary), small, [make] { return AnyScene(make()); }});
   }
 
   void add_built_in(const SceneInfo& info) {
     const SceneExtent extent = extent_of(info.name);
     const Size size = quick_ ? extent.quick_size : extent.size;
     const SceneRequest request{size.width, size.height, 0.0f, quick_ ? extent.quick_scale : extent.scale};
-    const double cost_s = quick_ ? extent.quick_cost_s : extent.cost_s;
-    add(Family::coverage, info.name, info.summary, false, cost_s,
+    add(Family::coverage, info.name, info.summary, false,
         [&info, request, size] { return scene_of(info.make(request), size); });
     if (info.stream) return;
     const Size seen = quick_ ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
-    add(Family::visibility, info.name, info.summary, false, cost_s / 2, [&info, for_visibility, seen] {
+    add(Family::visibility, info.name, info.summary, false, [&info, for_visibility, seen] {
       return visibility_scene(std::get<Scene>(info.make(for_visibility)), seen, Cull::back);
     });
-    add_projection(info.name, info.summary, size, 2 * cost_s, [&info, request](int frame) {
+    add_projection(info.name, info.summary, size, [&info, request](int frame) {
       SceneRequest at = request;
       at.time = static_cast<float>(frame);
       return std::get<Scene>(info.make(at));
     });
   }
 
-  void add_projection(std::string_view name, std::string_view summary, Size size, double cost_s,
+  void add_projection(std::string_view name, std::string_view summary, Size size,
                       std::function<Scene(int)> make) {
     const int frames = quick_ ? 1 : 4;
-    add(Family::projection, name, summary, false, frames * cost_s, [size, frames, make] {
+    add(Family::projection, name, summary, false, [size, frames, make] {
       return ProjectionScene{size, frames, make};
     });
   }
@@ -177,12 +169,11 @@ class Catalogue {
   void add_facing() {
     constexpr double kTilt = 0.5235987755982988;  // 30 degrees
     const std::size_t many = quick_ ? 20'000 : 100'000, some = quick_ ? 5'000 : 20'000;
-    const double cost_s = quick_ ? 0.3 : 4.0;
     add(Family::facing, "tilted_faces", "many faces in random directions, 30 degrees off the axis", false,
-        cost_s, [many] { return tilted_faces(kTilt, true, many, 3); });
+        [many] { return tilted_faces(kTilt, true, many, 3); });
     add(Family::facing, "tilted_faces_orthographic", "the same under an orthographic camera", false,
-        cost_s / 5, [some] { return tilted_faces(kTilt, false, some, 3); });
-    add(Family::facing, "edge_on_faces", "many slivers through pixel centres, almost edge-on", false, cost_s,
+        [some] { return tilted_faces(kTilt, false, some, 3); });
+    add(Family::facing, "edge_on_faces", "many slivers through pixel centres, almost edge-on", false,
         [some] { return edge_on_faces(true, some, 4); });
   }
 
@@ -197,7 +188,7 @@ std::vector<LabScene> lab_scenes(bool quick) {
 }
 
 LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load) {
-  return {Family::coverage, name, "your file", false, 5.0, [load] {
+  return {Family::coverage, name, "your file", false, [load] {
             const SizedDrawable own = load();
             return AnyScene(scene_of(own.drawable, own.size));
           }};
@@ -206,11 +197,11 @@ LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable
 std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load) {
   std::vector<LabScene> scenes{own_coverage_scene(name, load)};
   if (stream) return scenes;
-  scenes.push_back({Family::visibility, name, "your file", false, 5.0, [load] {
+  scenes.push_back({Family::visibility, name, "your file", false, [load] {
                       const SizedDrawable own = load();
                       return AnyScene(visibility_scene(std::get<Scene>(own.drawable), own.size, Cull::back));
                     }});
-  scenes.push_back({Family::projection, name, "your file", false, 5.0, [load] {
+  scenes.push_back({Family::projection, name, "your file", false, [load] {
                       const SizedDrawable own = load();
                       return AnyScene(ProjectionScene{
                           own.size, 1, [scene = std::get<Scene>(own.drawable)](int) { return scene; }});

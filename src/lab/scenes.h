@@ -22,7 +22,6 @@ struct LabScene {
   Family family;
   std::string name, summary;
   bool smallest;  // a small scene that shows a single failure; only these get close-ups
-  double cost_s;  // estimate for the progress bar
   std::function<AnyScene()> make;
 };
 

@@ -251,7 +251,7 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
                                       },
                                   .runs = {}};
   const auto scene = std::make_shared<MethodScene>(
-      MethodScene{lab::LabScene{lab::Family::coverage, "empty", "", true, 0.0, [] {
+      MethodScene{lab::LabScene{lab::Family::coverage, "empty", "", true, [] {
                                   return lab::CoverageScene{{8, 8}, {}, {}};
                                 }}});
   const auto error = [&](int threads) {

@@ -17,7 +17,6 @@
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
-#include "lab/coverage/coverage.h"
 #include "lab/peers/mesa/gl_context.h"
 #include "lab/portable/portable.h"
 #include "message_of.h"
@@ -167,7 +166,6 @@ class Mirror final : public PeerFrame {
       pixels.insert(pixels.end(), frame_.payload_row(y), frame_.payload_row(y) + frame_.width());
     return pixels;
   }
-  std::vector<float> read_depths() override { return {}; }
 
  private:
   PeerScene scene_;
@@ -195,15 +193,6 @@ Row row_of(const PeerInfo& peer, const std::shared_ptr<Workload>& workload, int 
   row.peer = &peer;
   row.execution.threads = threads;
   return row;
-}
-
-TEST(PeerMethods, RoundAsReportedOnlyIfTheirPictureSaysSo) {
-  const PeerInfo says_8_bits = mirror<false>();
-  PeerInfo says_4_bits = says_8_bits;
-  says_4_bits.subpixel_bits = [] { return 4; };
-  const auto methods = lab::peer_methods({{{&says_8_bits, "1"}, {&says_4_bits, "1"}}, {}});
-  EXPECT_EQ(methods[0].promise.snap_bits, 8);
-  EXPECT_EQ(methods[1].promise.snap_bits, lab::kUnknownSnap);
 }
 
 TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {

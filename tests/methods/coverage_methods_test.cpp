@@ -114,7 +114,7 @@ TEST_P(EveryCoverageMethod, DiffersFromTheTruthSomewhereUnlessItIsExact) {
 TEST_P(EveryCoverageMethod, ErrsBySnappingAloneIfItIsExact) {
   if (!method_.info.exact) return;
   const auto expect_exact = [&](const Picture& picture, std::string_view what) {
-    CoverageScore perfect{.triangles = picture.floats.size(), .covered = picture.by_grid.covered};
+    CoverageScore perfect;
     const DrawnRuns drawn = drawn_by(method_, picture);
     EXPECT_EQ(score_coverage(picture.by_grid, drawn, picture.floats), perfect) << what;
     EXPECT_EQ(score_coverage(picture.by_floats, drawn, picture.floats),

@@ -28,7 +28,7 @@ struct AccuracyPlan {
   bool quick = false;                // small sizes, few frames
   bool fit = false;                  // see load_source
   bool pictures = false;             // whether to keep close-ups of errors
-  bool peers = false;                // the rasterizers of other projects, in place of the methods
+  bool peers = false;                // other projects' rasterizers in place of the methods: `choice` only
   int threads = 1;                   // results don't depend on it
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };
@@ -144,7 +144,7 @@ inline constexpr std::string_view kTurningCube = "turning-cube", kChoice = "choi
 // The scenes that the plan names, family by family, and whether it includes the rotating cube, and the frames
 // of the chart for choosing a method.
 struct AccuracyScenes {
-  std::vector<lab::LabScene> scenes;
+  std::vector<lab::LabScene> scenes = {};
   bool turning_cube = false, choice = false;
 };
 AccuracyScenes scenes_of(const AccuracyPlan& plan);

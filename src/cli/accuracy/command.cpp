@@ -32,10 +32,7 @@ int accuracy_command(AccuracyOptions& o) {
   JsonOutput json(o.json);
 
   Progress progress;
-  TimeLeft left;
-  plan.on_progress = [&](double fraction, std::string_view scene) {
-    progress.show(fraction, left.label(fraction, scene));
-  };
+  plan.on_progress = [&](double fraction, std::string_view scene) { progress.show(fraction, scene); };
   const AccuracyReport report = measure_accuracy(plan);
   progress.erase();
 
@@ -98,7 +95,7 @@ Action add_accuracy(CLI::App& command) {
       ->delimiter(',')
       ->type_name("NAME");
   command.add_flag("--peers", o->plan.peers,
-                   "Measure only other projects' rasterizers that start here (coverage)");
+                   "Measure other projects' rasterizers that start here, in the scene choice");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   add_text(command, "--json", "FILE", o->json,
            "Also write all results as JSON; - for stdout, instead of the tables");

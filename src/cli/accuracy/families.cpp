@@ -9,19 +9,15 @@ namespace edgewise::tools {
 
 namespace {
 
-// Calls score_one(method) for all methods, on several threads, and reports progress.
+// Calls score_one(method) for all methods, on several threads.
 template <typename Method, typename ScoreOne>
 void score_all(const std::vector<const Method*>& methods, const Judging& judging, SceneResult& result,
                ScoreOne&& score_one) {
   result.methods.resize(methods.size());
-  std::mutex mutex;
-  std::size_t done = 0;
   parallel_for(judging.plan.threads, static_cast<int>(methods.size()), [&](int n) {
     const auto i = static_cast<std::size_t>(n);
     const lab::MethodInfo& info = methods[i]->info;
     result.methods[i] = {std::string(info.name), info.exact, score_one(*methods[i])};
-    const std::lock_guard lock(mutex);
-    judging.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
   });
 }
 
@@ -40,24 +36,6 @@ void picture_all(const std::vector<const Method*>& methods, const Judging& judgi
 std::uint64_t covered_pixels(const std::vector<std::uint32_t>& visible) {
   return static_cast<std::uint64_t>(
       std::count_if(visible.begin(), visible.end(), [](std::uint32_t id) { return id != lab::kNoTriangle; }));
-}
-
-// Computes the exact facts of all faces, on several threads.
-std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Judging& judging) {
-  constexpr std::size_t kFacesPerTask = 2000;
-  const std::size_t tasks = (scene.faces.size() + kFacesPerTask - 1) / kFacesPerTask;
-  const lab::FacingTruth truth(scene);
-  std::vector<lab::FaceFacts> all(scene.faces.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(judging.plan.threads, static_cast<int>(tasks), [&](int n) {
-    const auto first = static_cast<std::size_t>(n) * kFacesPerTask;
-    for (std::size_t i = first; i < std::min(first + kFacesPerTask, all.size()); ++i)
-      all[i] = truth.facts(scene.faces[i]);
-    const std::lock_guard lock(mutex);
-    judging.progress(0.9 * static_cast<double>(++done) / static_cast<double>(tasks));
-  });
-  return all;
 }
 
 }  // namespace
@@ -91,7 +69,7 @@ void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResul
 
 void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& result) {
   const auto& methods = judging.methods.facing;
-  const auto facts = facts_of(scene, judging);
+  const auto facts = lab::facing_facts(scene, judging.plan.threads);
   result.width = scene.view.size.width;
   result.height = scene.view.size.height;
   result.triangles = scene.faces.size();
@@ -118,7 +96,6 @@ void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult&
   result.height = scene.size.height;
   result.triangles = scene.mesh().triangles.size();
   result.covered = covered_pixels(truth.visible);
-  judging.progress(0.5);
   score_all(methods, judging, result,
             [&](const lab::ClippingMethod& method) { return lab::score(method, scene, truth); });
   lab::ClippingFrame frame(scene.size);
@@ -149,7 +126,6 @@ void judge(const lab::ProjectionScene& scene, const Judging& judging, SceneResul
       const auto i = static_cast<std::size_t>(n);
       scores[i] += judge.score(*methods[i]);
     });
-    judging.progress(static_cast<double>(frame + 1) / scene.frames);
   }
   for (std::size_t i = 0; i < methods.size(); ++i)
     result.methods.push_back({std::string(methods[i]->info.name), methods[i]->info.exact, scores[i]});

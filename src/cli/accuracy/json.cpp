@@ -117,16 +117,12 @@ Json cube_json(const CubeResult& cube) {
 Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
   Json result{{"methods", Json::array()}, {"scenes", Json::array()}};
   const ChosenMethods methods = methods_of(plan);
-  for (const auto& [family, info] : methods.all()) {
-    Json& method = result["methods"].emplace_back(Json{{"family", name_of(family)},
-                                                       {"name", info->name},
-                                                       {"source", info->source},
-                                                       {"promise", info->promise},
-                                                       {"exact", info->exact}});
-    if (family == Family::projection)
-      method["other_bits"] = std::ranges::any_of(lab::projections_with_other_bits(),
-                                                 [&](const auto& m) { return m.info.name == info->name; });
-  }
+  for (const auto& [family, info] : methods.all())
+    result["methods"].push_back({{"family", name_of(family)},
+                                 {"name", info->name},
+                                 {"source", info->source},
+                                 {"promise", info->promise},
+                                 {"exact", info->exact}});
   for (std::size_t i = 0; i < methods.coverage.size(); ++i)  // which come first
     result["methods"][i]["max_side_px"] = methods.coverage[i]->promise.max_side_px;
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));

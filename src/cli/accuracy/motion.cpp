@@ -54,12 +54,10 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
 }  // namespace
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
-                              const std::function<void(double)>& progress, std::vector<Closeup>& closeups) {
+                              std::vector<Closeup>& closeups) {
   const auto& judged = methods.coverage;
   const int frames = plan.quick ? kQuickCubeFrames : kCubeFrames;
   std::vector<Scores> scores(judged.size(), Scores(static_cast<std::size_t>(frames)));
-  std::mutex mutex;
-  int done = 0;
   parallel_for(plan.threads, frames / kCubeFramesPerTask, [&](int task) {
     for (int frame = task * kCubeFramesPerTask; frame < (task + 1) * kCubeFramesPerTask; ++frame) {
       const lab::CoverageScene scene = scene_at("cube", frame);
@@ -75,8 +73,6 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
             {}};
       }
     }
-    const std::lock_guard lock(mutex);
-    progress(static_cast<double>(done += kCubeFramesPerTask) / frames);
   });
 
   const std::size_t first_closeup = closeups.size();
@@ -90,8 +86,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   return result;
 }
 
-std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods,
-                                        const std::function<void(double)>& progress) {
+std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods) {
   const auto& judged = methods.coverage;
   const int frames = plan.quick ? kQuickMotionFrames : kMotionFrames;
   std::vector<MotionResult> results;
@@ -113,8 +108,6 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
         judged[i]->draw(scene.input(), *canvases[i], {});
         changes[i].add(lab::payloads_of(canvases[i]->frame));
       });
-      progress((static_cast<double>(results.size()) + static_cast<double>(frame + 1) / frames) /
-               static_cast<double>(std::size(kMovingScenes)));
     }
     MotionResult& result = results.emplace_back(
         MotionResult{std::string(name), frames, kSize.width, kSize.height, truth.sum(), {}});

@@ -39,16 +39,11 @@ int stability_command(const StabilityOptions& o) {
   }
   JsonOutput json(o.json);
 
-  double all = 0.0, done = 0.0;
-  for (const lab::Sweep* sweep : sweeps) all += sweep->cost;
   Progress progress;
-  const TimeLeft left;
   std::vector<lab::SweepResult> results;
   for (const lab::Sweep* sweep : sweeps) {
-    results.push_back(lab::run_sweep(*sweep, o.quick ? lab::kQuick : lab::kFull, o.threads, [&] {
-      done += sweep->cost / static_cast<double>(sweep->positions.size());
-      progress.show(done / all, left.label(done / all, sweep->name));
-    }));
+    progress.show(static_cast<double>(results.size()) / static_cast<double>(sweeps.size()), sweep->name);
+    results.push_back(lab::run_sweep(*sweep, o.quick ? lab::kQuick : lab::kFull, o.threads));
     if (json.on_stdout()) continue;
     progress.erase();
     print(stability_table(results.back()) + (sweep == sweeps.back() ? "" : "\n"));

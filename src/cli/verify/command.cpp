@@ -96,16 +96,15 @@ int verify_command(VerifyOptions& o) {
 
   Progress progress;
   plan.on_progress = [&](double fraction, std::string_view scene) { progress.show(fraction, scene); };
-  const VerifyTable table(terminal_width());
   const auto show = [&](const std::string& text) {
     if (json.on_stdout()) return;
     progress.erase();
     print(text);
     std::fflush(stdout);
   };
-  std::string header = table.header();  // printed only after the first scene was read
+  std::string header = verify_header();  // printed only after the first scene was read
   const VerifyReport report = verify(plan, [&](const SceneVerdict& verdict) {
-    show(std::exchange(header, {}) + table.line(verdict) + explain(verdict));
+    show(std::exchange(header, {}) + verify_line(verdict) + explain(verdict));
   });
   show(summary(report, plan));
 

@@ -89,22 +89,17 @@ std::string describe(const lab::DrawOptions& how) {
                      name_of(resolve(e.target)), e.tile_size, tiles.empty() ? "" : ", ", tiles);
 }
 
-constexpr const char *kWide = "{:<12} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n",
-                     *kNarrow = "{:<12} {:>9} {:>8} {:>7} {:>7} {}\n";
+constexpr const char* kLine = "{:<12} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n";
 
-std::string VerifyTable::header() const {
-  return wide_ ? fmt::format(kWide, "scene", "size", "triangles", "emitted", "compared", "differ", "oracle",
-                             "verdict")
-               : fmt::format(kNarrow, "scene", "triangles", "compared", "differ", "oracle", "verdict");
+std::string verify_header() {
+  return fmt::format(kLine, "scene", "size", "triangles", "emitted", "compared", "differ", "oracle",
+                     "verdict");
 }
 
-std::string VerifyTable::line(const SceneVerdict& v) const {
-  const std::string name = printable_within(v.scene, 12), size = fmt::format("{}x{}", v.width, v.height);
-  const char* verdict = v.ok() ? "ok" : "DIFFERS";
-  return wide_ ? fmt::format(kWide, name, size, v.triangles, v.emitted, v.configurations, v.differing_pixels,
-                             v.oracle_differences, verdict)
-               : fmt::format(kNarrow, name, v.triangles, v.configurations, v.differing_pixels,
-                             v.oracle_differences, verdict);
+std::string verify_line(const SceneVerdict& v) {
+  return fmt::format(kLine, printable_within(v.scene, 12), fmt::format("{}x{}", v.width, v.height),
+                     v.triangles, v.emitted, v.configurations, v.differing_pixels, v.oracle_differences,
+                     v.ok() ? "ok" : "DIFFERS");
 }
 
 std::string explain(const SceneVerdict& verdict) {

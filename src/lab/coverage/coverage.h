@@ -66,9 +66,6 @@ struct CoveragePromise {
   std::optional<int> snap_bits = {};
 };
 inline constexpr int kMostSnapBits = 16;
-// It rounds in a way that is not known. Its folds cannot be counted, and its cracks are judged by the
-// positions as they are.
-inline constexpr int kUnknownSnap = -1;
 
 struct CoverageMethod {
   MethodInfo info;
@@ -77,7 +74,7 @@ struct CoverageMethod {
   // depth test. All SIMD targets draw the same pixels and depths.
   std::function<void(const CoverageInput&, Canvas&, const Execution&)> draw;
   // Appends, in any order, each triangle's pixels before the depth test, found by the same code as in
-  // draw().
+  // draw(). Peers have none.
   std::function<void(const CoverageInput&, Window, std::vector<Run>&)> runs;
   bool threaded = false;        // draw uses the execution's threads
   bool contract_depth = false;  // draw writes the frame's depths, in units of rule 6

@@ -194,8 +194,7 @@ DrawnRuns::DrawnRuns(const CoverageMethod& method, const CoverageInput& input, W
           window) {}
 
 CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const SourceTruth& source) {
-  CoverageScore score{
-      .triangles = source.size(), .covered = truth.covered, .out_of_bounds = drawn.out_of_bounds};
+  CoverageScore score{.out_of_bounds = drawn.out_of_bounds};
   for_each_difference(truth.runs, drawn.runs, [&](const Run& run, bool missing) {
     (missing ? score.missing : score.extra) += length(run);
     const ErrorDistance distance(source.outline(run.triangle));
@@ -212,10 +211,14 @@ CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
   return score_coverage(truth, drawn, FloatSource(triangles));
 }
 
+const SourceTruth& source_of(const CoverageScene& scene, const FloatSource& floats) {
+  return scene.truth ? static_cast<const SourceTruth&>(*scene.truth) : floats;
+}
+
 SourceJudge::SourceJudge(const CoverageScene& scene, int threads)
     : scene_(scene),
       by_floats_(scene.floats),
-      source_(scene.truth ? static_cast<const SourceTruth&>(*scene.truth) : by_floats_),
+      source_(source_of(scene, by_floats_)),
       floats_(float_coverage(scene.input(), scene.window(), threads)) {
   if (scene.truth) exact_ = coverage_of(source_, scene.window(), threads);
 }

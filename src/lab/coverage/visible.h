@@ -34,18 +34,23 @@ struct VisibleTriangleScore {
 class VisibleTriangleJudge {
  public:
   VisibleTriangleJudge(CoverageScene scene, const Surface& surface, int threads);
+  VisibleTriangleJudge(const VisibleTriangleJudge&) = delete;
   VisibleTriangleScore score(const CoverageMethod& method) const;
   std::uint64_t slits() const;  // of the source
 
  private:
-  std::uint64_t unexplained(const Canvas& canvas) const;
+  // Whether the depth error of rule 6 may show this triangle of the scene instead of the visible one.
+  bool explains(std::uint32_t drawn, int x, int y) const;
 
   // The triangle of the source that triangle `i` of the scene comes from.
   std::uint32_t source(std::uint32_t i) const { return scene_.truth ? scene_.sources[i] : i; }
 
   CoverageScene scene_;            // payloads number the triangles from 1
   std::vector<bool> shares_edge_;  // by triangle of the scene
-  VisibleTriangles by_grid_, by_source_;
+  VisibleTriangles by_grid_;
+  FloatSource floats_;
+  const SourceTruth& source_;
+  VisibleTriangles by_source_;
 };
 
 }  // namespace edgewise::lab

@@ -81,16 +81,7 @@ struct FaceFacts {
   double magnification;
   double rounding_px;  // bound on the error of projecting these vertices in float
 };
-class FacingTruth {
- public:
-  explicit FacingTruth(const FacingScene& scene);  // the scene must outlive it
-  FaceFacts facts(const Face& face) const;
-
- private:
-  const FacingScene& scene_;
-  glm::dvec3 object_;  // the mean of all positions
-};
-std::vector<FaceFacts> facing_facts(const FacingScene& scene);
+std::vector<FaceFacts> facing_facts(const FacingScene& scene, int threads = 1);
 
 struct FacingMethod {
   MethodInfo info;

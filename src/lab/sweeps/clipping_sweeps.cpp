@@ -59,7 +59,6 @@ std::vector<Sweep> clipping_sweeps() {
        Family::clipping,
        "a floor under the camera, through a wall at 10: depths get too coarse",
        {"near plane's distance", ""},
-       0.2,
        decades(1, -6),
        [](double near_z, std::uint64_t seed) {
          return measure_turned(floor_through_eye(static_cast<float>(near_z)), seed);
@@ -69,14 +68,12 @@ std::vector<Sweep> clipping_sweeps() {
        Family::clipping,
        "a floor and a wall with a vertex near the camera's plane; near 0.1",
        {"w of the vertex", ""},
-       0.1,
        decades(1, -6),
        measure_vertex_w},
       {"origin",
        Family::clipping,
        "a tiled floor under the camera, both far from the origin; near 1/1024",
        {"distance from origin", ""},
-       1,
        decades(0, 8),
        [](double away, std::uint64_t seed) { return measure_turned(floor_far_from_origin(away), seed); }}};
 }

@@ -222,7 +222,6 @@ void add_sweeps(std::vector<Sweep>& list, std::string_view (&&names)[4], std::st
                   Family::coverage,
                   "a fine mesh, up to the far corner of the largest image",
                   {"distance from origin", "px"},
-                  1,
                   powers_of_two(7, 14),
                   measure_distance<kGrid>,
                   why});
@@ -230,7 +229,6 @@ void add_sweeps(std::vector<Sweep>& list, std::string_view (&&names)[4], std::st
                   Family::coverage,
                   "slivers that share long edges",
                   {"length over width", ""},
-                  4,
                   up_to(kGrid == kOnHalves ? 2000 : 1e6, decades(0, 6)),  // thinner ones lose their area
                   measure_aspect<kGrid>,
                   why});
@@ -238,7 +236,6 @@ void add_sweeps(std::vector<Sweep>& list, std::string_view (&&names)[4], std::st
                   Family::coverage,
                   "right triangles, at the limits of 32-bit edge values",
                   {"legs", "px"},
-                  1,
                   {64, 90, 128, 181, 182, 256, 362, 512, 724, 1024, 1448, 2048, 2896, 2897, 4096, 5792, 8192},
                   measure_legs<kGrid>,
                   why});
@@ -246,7 +243,6 @@ void add_sweeps(std::vector<Sweep>& list, std::string_view (&&names)[4], std::st
                   Family::coverage,
                   "long shared edges: accumulated values drift",
                   {"length of the edges", "px"},
-                  3,
                   powers_of_two(3, 13),
                   measure_height<kGrid>,
                   why});
@@ -268,7 +264,6 @@ std::vector<Sweep> coverage_sweeps() {
                   Family::coverage,
                   "a mesh pans slowly: pixels that change though the truth does not",
                   {"speed", "px per frame"},
-                  50,
                   powers_of_two(-1, -8),
                   measure_pan,
                   kRounding});

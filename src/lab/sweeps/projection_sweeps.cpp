@@ -24,7 +24,6 @@ std::vector<Sweep> projection_sweeps() {
            Family::projection,
            "a sphere whose vertices, and the camera, lie far from the mesh's own origin",
            {"distance on each axis", "radii"},
-           10,
            powers_of_two(0, 16),
            [](double away, std::uint64_t seed) {
              Scene scene = sphere_far_from_origin(away);
@@ -36,7 +35,6 @@ std::vector<Sweep> projection_sweeps() {
            Family::projection,
            "a sphere far from the camera, as large in the picture",
            {"distance", "radii"},
-           10,
            powers_of_two(2, 20),
            [](double distance, std::uint64_t seed) {
              Scene scene = sphere_far_from_camera(distance);

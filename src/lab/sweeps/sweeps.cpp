@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <mutex>
 
 #include "core/nearest_name.h"
 #include "core/parallel.h"
@@ -60,15 +59,11 @@ Measured measure(const Sweep& sweep, double position, Effort effort) {
   return sum;
 }
 
-SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads,
-                      const std::function<void()>& on_position) {
+SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads) {
   SweepResult result{&sweep, std::vector<Measured>(sweep.positions.size(), Measured(0))};
-  std::mutex mutex;
   parallel_for(threads, static_cast<int>(sweep.positions.size()), [&](int i) {
     const auto position = static_cast<std::size_t>(i);
     result.at[position] = measure(sweep, sweep.positions[position], effort);
-    const std::lock_guard lock(mutex);
-    on_position();
   });
   return result;
 }

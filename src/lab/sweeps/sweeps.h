@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -47,7 +46,6 @@ struct Sweep {
   Family family;
   std::string_view summary;  // one line
   XAxis x;
-  double cost;                    // estimated seconds on one core, for estimates of the remaining time
   std::vector<double> positions;  // positions on the x axis, from easy to hard
   // Scores all methods at one position on one scene, another one for each seed. Deterministic and
   // thread-safe. Has trials at every position.
@@ -78,9 +76,7 @@ struct SweepResult {
   std::optional<double> starts_to_fail(std::size_t method) const;
 };
 
-// Calls `on_position` after each position, from one thread at a time.
-SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads,
-                      const std::function<void()>& on_position);
+SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads);
 // One position of it.
 Measured measure(const Sweep& sweep, double position, Effort effort);
 
