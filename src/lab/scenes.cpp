@@ -101,31 +101,27 @@ class Catalogue {
   std::vector<LabScene> built_in() {
     for (const CoverageCase& c : coverage_cases()) {
       const bool small = c.size.width < 1000;
-      add(Family::coverage, c.name, c.summary, small, [&c] {
+      add(Family::coverage, c.name, small, [&c] {
         auto floats = c.make();
         auto rounded = snapped(floats);
         return CoverageScene{c.size, std::move(floats), std::move(rounded)};
       });
     }
     const Size seen = quick_ ? kQuick : kNormalSize;
-    add(Family::visibility, "deep_soup", "20,000 intersecting triangles, near and far", false,
-        [seen] { return visibility_scene(deep_soup(20'000), seen); });
+    add(Family::visibility, "deep_soup", false, [seen] { return visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
-    add_projection("fine_sphere", "a sphere of 128 x 192 cells, near the camera",
-                   quick_ ? kNormalSize : kFullHd, [quick = quick_](int frame) {
-                     Scene scene = quick ? sphere_scene(32, 48) : sphere_scene(128, 192);
-                     scene.instances.front().angle = static_cast<float>(frame);
-                     return scene;
-                   });
-    for (const VisibilityCase& c : visibility_cases())
-      add(Family::visibility, c.name, c.summary, true, c.make);
-    for (const FacingCase& c : facing_cases()) add(Family::facing, c.name, c.summary, true, c.make);
+    add_projection("fine_sphere", quick_ ? kNormalSize : kFullHd, [quick = quick_](int frame) {
+      Scene scene = quick ? sphere_scene(32, 48) : sphere_scene(128, 192);
+      scene.instances.front().angle = static_cast<float>(frame);
+      return scene;
+    });
+    for (const VisibilityCase& c : visibility_cases()) add(Family::visibility, c.name, true, c.make);
+    for (const FacingCase& c : facing_cases()) add(Family::facing, c.name, true, c.make);
     add_facing();
-    for (const ClippingCase& c : clipping_cases()) add(Family::clipping, c.name, c.summary, true, c.make);
-    add(Family::clipping, "around_the_eye", "triangles on all sides, across the near and the far plane",
-        false, [quick = quick_] {
-          return quick ? around_the_camera(5000, kQuick) : around_the_camera(20'000, kNormalSize);
-        });
+    for (const ClippingCase& c : clipping_cases()) add(Family::clipping, c.name, true, c.make);
+    add(Family::clipping, "around_the_eye", false, [quick = quick_] {
+      return quick ? around_the_camera(5000, kQuick) : around_the_camera(20'000, kNormalSize);
+    });
     // Group by family, in the order of the tables.
     std::stable_sort(list_.begin(), list_.end(),
                      [](const auto& a, const auto& b) { return a.family < b.family; });
@@ -134,34 +130,32 @@ class Catalogue {
 
  private:
   template <typename Make>
-  void add(Family family, std::string_view name, std::string_view summary, bool small, Make make) {
-    list_.push_back(
-        {family, std::string(name), std::string(summary), small, [make] { return AnyScene(make()); }});
+  void add(Family family, std::string_view name, bool small, Make make) {
+    list_.push_back({family, std::string(name), small, [make] { return AnyScene(make()); }});
   }
 
   void add_built_in(const SceneInfo& info) {
     const SceneExtent extent = extent_of(info.name);
     const Size size = quick_ ? extent.quick_size : extent.size;
     const SceneRequest request{size.width, size.height, 0.0f, quick_ ? extent.quick_scale : extent.scale};
-    add(Family::coverage, info.name, info.summary, false,
+    add(Family::coverage, info.name, false,
         [&info, request, size] { return scene_of(info.make(request), size); });
     if (info.stream) return;
     const Size seen = quick_ ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
-    add(Family::visibility, info.name, info.summary, false, [&info, for_visibility, seen] {
+    add(Family::visibility, info.name, false, [&info, for_visibility, seen] {
       return visibility_scene(std::get<Scene>(info.make(for_visibility)), seen, Cull::back);
     });
-    add_projection(info.name, info.summary, size, [&info, request](int frame) {
+    add_projection(info.name, size, [&info, request](int frame) {
       SceneRequest at = request;
       at.time = static_cast<float>(frame);
       return std::get<Scene>(info.make(at));
     });
   }
 
-  void add_projection(std::string_view name, std::string_view summary, Size size,
-                      std::function<Scene(int)> make) {
+  void add_projection(std::string_view name, Size size, std::function<Scene(int)> make) {
     const int frames = quick_ ? 1 : 4;
-    add(Family::projection, name, summary, false, [size, frames, make] {
+    add(Family::projection, name, false, [size, frames, make] {
       return ProjectionScene{size, frames, make};
     });
   }
@@ -169,12 +163,10 @@ class Catalogue {
   void add_facing() {
     constexpr double kTilt = 0.5235987755982988;  // 30 degrees
     const std::size_t many = quick_ ? 20'000 : 100'000, some = quick_ ? 5'000 : 20'000;
-    add(Family::facing, "tilted_faces", "many faces in random directions, 30 degrees off the axis", false,
-        [many] { return tilted_faces(kTilt, true, many, 3); });
-    add(Family::facing, "tilted_faces_orthographic", "the same under an orthographic camera", false,
+    add(Family::facing, "tilted_faces", false, [many] { return tilted_faces(kTilt, true, many, 3); });
+    add(Family::facing, "tilted_faces_orthographic", false,
         [some] { return tilted_faces(kTilt, false, some, 3); });
-    add(Family::facing, "edge_on_faces", "many slivers through pixel centres, almost edge-on", false,
-        [some] { return edge_on_faces(true, some, 4); });
+    add(Family::facing, "edge_on_faces", false, [some] { return edge_on_faces(true, some, 4); });
   }
 
   bool quick_;
@@ -188,7 +180,7 @@ std::vector<LabScene> lab_scenes(bool quick) {
 }
 
 LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load) {
-  return {Family::coverage, name, "your file", false, [load] {
+  return {Family::coverage, name, false, [load] {
             const SizedDrawable own = load();
             return AnyScene(scene_of(own.drawable, own.size));
           }};
@@ -197,11 +189,11 @@ LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable
 std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load) {
   std::vector<LabScene> scenes{own_coverage_scene(name, load)};
   if (stream) return scenes;
-  scenes.push_back({Family::visibility, name, "your file", false, [load] {
+  scenes.push_back({Family::visibility, name, false, [load] {
                       const SizedDrawable own = load();
                       return AnyScene(visibility_scene(std::get<Scene>(own.drawable), own.size, Cull::back));
                     }});
-  scenes.push_back({Family::projection, name, "your file", false, [load] {
+  scenes.push_back({Family::projection, name, false, [load] {
                       const SizedDrawable own = load();
                       return AnyScene(ProjectionScene{
                           own.size, 1, [scene = std::get<Scene>(own.drawable)](int) { return scene; }});

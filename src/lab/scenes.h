@@ -20,7 +20,7 @@ using AnyScene = std::variant<CoverageScene, VisibilityScene, FacingScene, Clipp
 
 struct LabScene {
   Family family;
-  std::string name, summary;
+  std::string name;
   bool smallest;  // a small scene that shows a single failure; only these get close-ups
   std::function<AnyScene()> make;
 };

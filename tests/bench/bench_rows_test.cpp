@@ -250,10 +250,10 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
                                         if (how.threads == 1) canvas.depth[0] = 1.0f;  // else nothing
                                       },
                                   .runs = {}};
-  const auto scene = std::make_shared<MethodScene>(
-      MethodScene{lab::LabScene{lab::Family::coverage, "empty", "", true, [] {
-                                  return lab::CoverageScene{{8, 8}, {}, {}};
-                                }}});
+  const auto scene =
+      std::make_shared<MethodScene>(MethodScene{lab::LabScene{lab::Family::coverage, "empty", true, [] {
+                                                                return lab::CoverageScene{{8, 8}, {}, {}};
+                                                              }}});
   const auto error = [&](int threads) {
     Row row;
     row.method = MethodDraw{scene, &wrong, {.threads = threads, .target = SimdTarget::scalar}};

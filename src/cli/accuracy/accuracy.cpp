@@ -89,7 +89,7 @@ class Run {
       show(scene.name);
       const Judging judging{plan_, methods_, scene, report.closeups};
       SceneResult result{};
-      result.family = scene.family, result.name = scene.name, result.summary = scene.summary;
+      result.family = scene.family, result.name = scene.name;
       if (scene.smallest) result.kind = SceneKind::small;
       std::visit([&](const auto& made) { judge(made, judging, result); }, scene.make());
       report.scenes.push_back(std::move(result));

@@ -68,9 +68,8 @@ inline constexpr std::string_view kSceneKinds[] = {"scenes", "small scenes", "me
 
 struct SceneResult {
   Family family;
-  std::string name, summary;
+  std::string name;
   SceneKind kind;
-  int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
   // Coverage and projection: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that
   // cover a sample. Counted by the exact reference: the snapped one where there are two, but for facing that
@@ -102,7 +101,7 @@ struct CubeResult {
 // See lab::PixelChanges.
 struct MotionResult {
   std::string name;
-  int frames, width, height;
+  int frames;
   std::uint64_t changes;  // of pixels, by the exact reference before snapping
   std::vector<std::pair<std::string, std::uint64_t>> superfluous;  // of each method
 };

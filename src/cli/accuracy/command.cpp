@@ -99,7 +99,8 @@ Action add_accuracy(CLI::App& command) {
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   add_text(command, "--json", "FILE", o->json,
            "Also write all results as JSON; - for stdout, instead of the tables");
-  add_text(command, "--pictures", "DIR", o->pictures, "Folder for pictures of errors on the small scenes");
+  add_text(command, "--pictures", "DIR", o->pictures,
+           "Folder for pictures of coverage and clipping on the small scenes");
   o->plan.threads = default_threads();
   add_integer(command, "--threads", o->plan.threads, 1, kMaxThreads,
               "Threads; results don't depend on it (usable cores)");

@@ -21,17 +21,6 @@ void score_all(const std::vector<const Method*>& methods, const Judging& judging
   });
 }
 
-// Adds a close-up for each method for which wrong(score) holds.
-template <typename Method, typename Wrong, typename Picture>
-void picture_all(const std::vector<const Method*>& methods, const Judging& judging, const SceneResult& result,
-                 Wrong&& wrong, Picture&& picture) {
-  if (!judging.plan.pictures || !judging.scene.smallest) return;
-  for (std::size_t i = 0; i < methods.size(); ++i)
-    if (wrong(result.methods[i].score))
-      judging.closeups.push_back(closeup(
-          closeup_name(result.family, judging.scene.name, methods[i]->info.name), picture(*methods[i])));
-}
-
 // Pixels that show a triangle.
 std::uint64_t covered_pixels(const std::vector<std::uint32_t>& visible) {
   return static_cast<std::uint64_t>(
@@ -43,79 +32,44 @@ std::uint64_t covered_pixels(const std::vector<std::uint32_t>& visible) {
 void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResult& result) {
   const auto& methods = judging.methods.visibility;
   const auto truth = lab::true_visible_triangles(scene);
-  result.width = scene.width;
-  result.height = scene.height;
   result.triangles = scene.triangles.size();
   result.covered = covered_pixels(truth.snapped);
   score_all(methods, judging, result,
             [&](const lab::VisibilityMethod& method) { return lab::score(method, scene, truth); });
-  lab::VisibilityFrame frame;
-  picture_all(
-      methods, judging, result,
-      [](const Score& score) { return std::get<lab::VisibilityScores>(score).snapped.wrong_triangle != 0; },
-      [&](const lab::VisibilityMethod& method) {
-        method.draw(scene, frame);
-        lab::MarkedPicture picture =
-            lab::mark_visible_triangles(truth.snapped, frame.visible, {scene.width, scene.height});
-        for (const lab::VisibilityTriangle& t : scene.triangles)
-          for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
-            picture.lines.push_back({t.screen.x_q15[i] / 32768.0, t.screen.y_q15[i] / 32768.0,
-                                     t.screen.x_q15[j] / 32768.0, t.screen.y_q15[j] / 32768.0});
-          }
-        return picture;
-      });
 }
 
 void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& result) {
   const auto& methods = judging.methods.facing;
   const auto facts = lab::facing_facts(scene, judging.plan.threads);
-  result.width = scene.view.size.width;
-  result.height = scene.view.size.height;
   result.triangles = scene.faces.size();
   result.covered = static_cast<std::uint64_t>(std::count_if(
       facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.source.covers_sample; }));
   score_all(methods, judging, result,
             [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
-  std::vector<std::uint8_t> front(scene.faces.size());
-  constexpr std::size_t kMostPictured = 20;  // more faces would occlude one another
-  if (scene.faces.size() > kMostPictured) return;
-  picture_all(
-      methods, judging, result,
-      [](const Score& score) { return std::get<lab::FacingScores>(score).source.misclassified != 0; },
-      [&](const lab::FacingMethod& method) {
-        method.classify(scene, front);
-        return lab::mark_faces(scene, facts, front);
-      });
 }
 
 void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult& result) {
   const auto& methods = judging.methods.clipping;
   const auto truth = lab::clipping_truth(scene, judging.plan.threads);
-  result.width = scene.size.width;
-  result.height = scene.size.height;
   result.triangles = scene.mesh().triangles.size();
   result.covered = covered_pixels(truth.visible);
   score_all(methods, judging, result,
             [&](const lab::ClippingMethod& method) { return lab::score(method, scene, truth); });
+  if (!judging.plan.pictures || !judging.scene.smallest) return;
   lab::ClippingFrame frame(scene.size);
-  picture_all(
-      methods, judging, result,
-      [](const Score& score) {  // the picture doesn't show wrong depths
-        const auto& s = std::get<lab::ClippingScore>(score);
-        return s.missing + s.extra + s.wrong_triangle != 0;
-      },
-      [&](const lab::ClippingMethod& method) {
-        method.draw(scene, frame);
-        return lab::mark_visible_triangles(truth.visible, lab::payloads_of(frame.picture),
-                                           {scene.size.width, scene.size.height});
-      });
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const auto& score = std::get<lab::ClippingScore>(result.methods[i].score);
+    if (score.missing + score.extra + score.wrong_triangle == 0) continue;  // it doesn't show wrong depths
+    methods[i]->draw(scene, frame);
+    judging.closeups.push_back(
+        closeup(closeup_name(Family::clipping, judging.scene.name, methods[i]->info.name),
+                lab::mark_visible_triangles(truth.visible, lab::payloads_of(frame.picture),
+                                            {scene.size.width, scene.size.height})));
+  }
 }
 
 void judge(const lab::ProjectionScene& scene, const Judging& judging, SceneResult& result) {
   const auto& methods = judging.methods.projection;
-  result.width = scene.size.width;
-  result.height = scene.size.height;
   std::vector<lab::ProjectionScore> scores(methods.size());
   for (int frame = 0; frame < scene.frames; ++frame) {
     const lab::ProjectionJudge judge(scene.make(frame), scene.size, judging.plan.threads);

@@ -23,8 +23,6 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
   const auto input = scene.input();
   const auto snapped = lab::snapped_coverage(input, scene.window(), judging.plan.threads);
   const lab::SourceJudge source(scene, judging.plan.threads);
-  result.width = scene.size.width;
-  result.height = scene.size.height;
   result.triangles = scene.floats.size();
   result.covered = snapped.covered;
   result.crossings = lab::edge_crossings(source.source(), scene.window());

@@ -109,8 +109,7 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
         changes[i].add(lab::payloads_of(canvases[i]->frame));
       });
     }
-    MotionResult& result = results.emplace_back(
-        MotionResult{std::string(name), frames, kSize.width, kSize.height, truth.sum(), {}});
+    MotionResult& result = results.emplace_back(MotionResult{std::string(name), frames, truth.sum(), {}});
     for (std::size_t i = 0; i < judged.size(); ++i)
       result.superfluous.emplace_back(judged[i]->info.name, changes[i].beyond(truth));
   }

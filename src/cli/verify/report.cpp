@@ -37,28 +37,6 @@ std::string names_of(const VerifyPlan& plan) {
   return names;
 }
 
-nlohmann::json mismatch_json(const Mismatch& m) {
-  nlohmann::json json{{"judge", m.judge},
-                      {"backend", m.backend},
-                      {"threads", m.drawn.how.execution.threads},
-                      {"tile_size", m.drawn.how.execution.tile_size},
-                      {"simd_target", name_of(resolve(m.drawn.how.execution.target))},
-                      {"tile_options", lab::describe(m.drawn.how.tiles)},
-                      {"whole_frame", m.drawn.whole_frame},
-                      {"cull", name_of(m.frontend.cull)},
-                      {"payload", name_of_payload(m.frontend.payload)},
-                      {"width", m.frontend.width},
-                      {"height", m.frontend.height},
-                      {"pixels", m.found.pixels},
-                      {"written_outside", m.found.outside},
-                      {"first", {m.found.first_x, m.found.first_y}},
-                      {"files", m.files},
-                      {"values", nlohmann::json::array()}};
-  for (const PixelValue& v : m.values)
-    json["values"].push_back({{"drawn_by", v.drawn_by}, {"depth", v.depth}, {"payload", v.payload}});
-  return json;
-}
-
 nlohmann::json scene_json(const SceneVerdict& v) {
   nlohmann::json json{{"scene", v.scene},
                       {"width", v.width},
@@ -76,7 +54,7 @@ nlohmann::json scene_json(const SceneVerdict& v) {
                       {"ok", v.ok()}};
   for (const HitCount& h : v.hits) json["pixels_not_hit_once"][h.backend] = h.not_once;
   json["mismatches"] = nlohmann::json::array();
-  for (const Mismatch& m : v.mismatches) json["mismatches"].push_back(mismatch_json(m));
+  for (const Mismatch& m : v.mismatches) json["mismatches"].push_back(explain(m));
   return json;
 }
 

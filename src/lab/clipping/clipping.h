@@ -104,7 +104,7 @@ ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, co
 
 // Small scenes on which methods fail.
 struct ClippingCase {
-  std::string_view name, summary;
+  std::string_view name;
   ClippingScene (*make)();
 };
 std::span<const ClippingCase> clipping_cases();

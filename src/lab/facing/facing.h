@@ -114,7 +114,7 @@ FacingScores score(const FacingMethod& method, const FacingScene& scene, std::sp
 
 // Small scenes on which methods fail.
 struct FacingCase {
-  std::string_view name, summary;
+  std::string_view name;
   FacingScene (*make)();
 };
 std::span<const FacingCase> facing_cases();

@@ -103,7 +103,7 @@ VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& sc
 
 // Small scenes on which methods fail.
 struct VisibilityCase {
-  std::string_view name, summary;
+  std::string_view name;
   VisibilityScene (*make)();
 };
 std::span<const VisibilityCase> visibility_cases();
