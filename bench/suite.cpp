@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
 
-#include "lab/stage_methods.h"
+#include "bench/workloads/laboratory.h"
 #include "support/options.h"
 #include "support/printable.h"
 
@@ -127,33 +128,12 @@ class Suite {
     }
   }
 
-  void add_methods(const lab::LabScene& scene) {
-    for (MethodDraw& draw : method_draws(scene)) {
-      Row row;
-      row.name = fmt::format("lab/{}/family:coverage/method:{}/simd:{}/threads:{}", scene.name,
-                             draw.method->info.name, name_of(draw.execution.target), draw.execution.threads);
-      row.execution = draw.execution;
-      row.method = std::move(draw);
-      rows_.push_back(std::move(row));
-    }
-  }
+  void add(std::vector<Row> rows) { std::ranges::move(rows, std::back_inserter(rows_)); }
 
-  // Of our methods and of peers, on one thread.
+  // Of our methods and of peers.
   void add_choices(const lab::ChoiceScene& scene) {
-    const auto frame = std::make_shared<ChoiceFrame>(ChoiceFrame{scene, {}, {}});
-    std::vector<const lab::CoverageMethod*> methods;
-    for (const auto& method : lab::coverage_methods()) methods.push_back(&method);
-    const auto add_row = [&](Row row, std::string_view method) {
-      row.name = fmt::format("choice/{}/method:{}/threads:1", scene.name, method);
-      row.many_rounds_up_to_s = kTooSlowToRepeat_s;
-      rows_.push_back(std::move(row));
-    };
-    for (const lab::ChoiceMethod& method : lab::choice_methods(methods)) {
-      Row row;
-      row.choice = ChoiceDraw{frame, method};
-      add_row(std::move(row), method.name);
-    }
-    if (!options_.peers) return;
+    const std::size_t first = rows_.size();
+    add(choice_rows(scene));
     const auto workload =
         std::make_shared<Workload>(scene.size.width, scene.size.height, Cull::back, [scene] {
           Drawable drawable = scene.make(0);
@@ -161,28 +141,14 @@ class Suite {
           return tools::Source{std::string(scene.name), std::move(drawable), stream};
         });
     for (const auto& peer : lab::benchmark_peers()) {
-      if (peer.own_clock) continue;  // a GPU
-      Row row;
+      if (!options_.peers || peer.own_clock) continue;  // a GPU
+      Row& row = rows_.emplace_back();
+      row.name = choice_name(scene, peer.name);
       row.workload = workload;
       row.timed = Timed::frame;
       row.peer = &peer;
-      add_row(std::move(row), peer.name);
     }
-  }
-
-  // From the vertices to the picture.
-  void add_pipelines(const std::string& file) {
-    for (const auto& scene : read_pipelines(file)) {
-      const auto add = [&](const std::string& name, const lab::Pipeline& pipeline) {
-        Row row;
-        row.name = fmt::format("needs/{}/pipeline:{}/threads:1", scene->name, name);
-        row.execution = {.threads = 1, .target = SimdTarget::scalar};
-        row.pipeline = PipelineDraw{scene, pipeline};
-        rows_.push_back(std::move(row));
-      };
-      for (std::size_t i = 0; i < scene->minima.size(); ++i) add(std::to_string(i + 1), scene->minima[i]);
-      if (!scene->minima.empty()) add("exact", lab::exact_pipeline());
-    }
+    for (std::size_t i = first; i < rows_.size(); ++i) rows_[i].many_rounds_up_to_s = kTooSlowToRepeat_s;
   }
 
   WorkloadPtr make_workload(std::function<tools::Source()> load) const {
@@ -263,7 +229,7 @@ std::string name_in_rows(const std::string& name_or_path) {
 
 bool in_quick_run(const Row& row) {
   constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "grid4"};
-  if (row.method || is_choice(row)) return is_choice(row);
+  if (row.prepare || is_choice(row)) return is_choice(row);
   const std::string_view name = row.name;
   const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
   const std::string_view scene = name.substr(begin, end - begin);
@@ -308,9 +274,9 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
     if (options.methods)
-      suite.add_methods(lab::own_coverage_scene(name, [source, size] {
+      suite.add(method_rows(lab::own_coverage_scene(name, [source, size] {
         return lab::SizedDrawable{source.drawable, size};
-      }));
+      })));
   };
   for (const auto& scene : options.scenes) add_named(scene);
   if (!options.scenes.empty()) return suite.take();
@@ -326,9 +292,9 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
-    if (is_timed(scene)) suite.add_methods(scene);
+    if (is_timed(scene)) suite.add(method_rows(scene));
   for (const lab::ChoiceScene& scene : lab::choice_scenes(options.quick)) suite.add_choices(scene);
-  if (!options.needs.empty()) suite.add_pipelines(options.needs);
+  if (!options.needs.empty()) suite.add(pipeline_rows(options.needs));
   std::vector<Row> rows = suite.take();
   if (options.quick) std::erase_if(rows, [](const Row& row) { return !in_quick_run(row); });
   return rows;

@@ -163,12 +163,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   }
   auto& counters = state.counters;
   if (row.peer != nullptr) state.SetLabel(row.peer_version);
-  if (row.method) {
-    const lab::CoverageScene& scene = *row.method->scene->scene;
-    counters["width"] = scene.size.width;
-    counters["height"] = scene.size.height;
-    counters["triangles"] = static_cast<double>(scene.floats.size());
-  }
+  if (row.triangles) counters["triangles"] = static_cast<double>(*row.triangles);
   if (!row.workload) return;
   const Workload& workload = *row.workload;
   counters["width"] = workload.width();
