@@ -67,7 +67,8 @@ class Suite {
   explicit Suite(const SuiteOptions& options) : options_(options) {}
 
   void add_scene(const WorkloadPtr& workload, const std::string& name) {
-    for (const int threads : options_.threads) add_frontend(workload, name, threads);
+    for (const int threads : options_.threads)
+      add_row(workload, Timed::frontend, fmt::format("frontend/{}/threads:{}", name, threads), threads);
     for (const auto& backend : backends())
       for (const int threads : options_.threads) {
         add(workload, Timed::raster, backend, name, threads);
@@ -142,11 +143,7 @@ class Suite {
         });
     for (const auto& peer : lab::benchmark_peers()) {
       if (!options_.peers || peer.own_clock) continue;  // a GPU
-      Row& row = rows_.emplace_back();
-      row.name = choice_name(scene, peer.name);
-      row.workload = workload;
-      row.timed = Timed::frame;
-      row.peer = &peer;
+      add_row(workload, Timed::frame, choice_name(scene, peer.name), 1).peer = &peer;
     }
     for (std::size_t i = first; i < rows_.size(); ++i) rows_[i].many_rounds_up_to_s = kTooSlowToRepeat_s;
   }
@@ -161,24 +158,16 @@ class Suite {
                                       [scene, wanted] { return tools::load_source(scene, wanted, false); });
   }
 
-  std::vector<Row> take() {
-    for (const Row& row : rows_)
-      if (row.workload) row.workload->set_subpixel_bits(options_.subpixel_bits);
-    return std::move(rows_);
-  }
+  std::vector<Row> take() { return std::move(rows_); }
 
  private:
   void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
            int threads, SimdTarget target = SimdTarget::best) {
     const char* with = timed == Timed::frame ? "+frontend" : "";
-    Row row;
-    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads);
-    row.workload = workload;
-    row.timed = timed;
+    Row& row = add_row(workload, timed, fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads),
+                       threads);
     row.backend = &backend;
-    row.execution.threads = threads;
     row.execution.target = backend.name == "naive" ? SimdTarget::scalar : target;  // all of it
-    rows_.push_back(std::move(row));
   }
 
   // As a user would draw it.
@@ -191,22 +180,18 @@ class Suite {
 
   void add_peer(const WorkloadPtr& workload, const lab::PeerInfo& peer, const std::string& scene,
                 int threads) {
-    Row row;
-    row.name = fmt::format("{}+frontend/{}/threads:{}", peer.name, scene, threads);
-    row.workload = workload;
-    row.timed = Timed::frame;
-    row.peer = &peer;
-    row.execution.threads = threads;
-    rows_.push_back(std::move(row));
+    add_row(workload, Timed::frame, fmt::format("{}+frontend/{}/threads:{}", peer.name, scene, threads),
+            threads)
+        .peer = &peer;
   }
 
-  void add_frontend(const WorkloadPtr& workload, const std::string& scene, int threads) {
-    Row row;
-    row.name = fmt::format("frontend/{}/threads:{}", scene, threads);
+  Row& add_row(const WorkloadPtr& workload, Timed timed, std::string name, int threads) {
+    Row& row = rows_.emplace_back();
+    row.name = std::move(name);
     row.workload = workload;
-    row.timed = Timed::frontend;
+    row.timed = timed;
     row.execution.threads = threads;
-    rows_.push_back(std::move(row));
+    return row;
   }
 
   const SuiteOptions& options_;

@@ -196,7 +196,6 @@ PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> thei
     const auto row = theirs.subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(ours.width()));
     for (int x = 0; x < ours.width(); ++x) {
       const std::uint32_t mine = ours.payload_row(y)[x], other = row[static_cast<std::size_t>(x)];
-      result.drawn += mine != kNoTriangle || other != kNoTriangle;
       if (mine == other) continue;
       if (mine == kNoTriangle || other == kNoTriangle) {
         ++result.coverage;
@@ -255,11 +254,9 @@ PortableJudgement judge_portable(const Workload& workload, std::span<const std::
 
 void PeerStage::compare(Row& row) {
   const Workload& workload = *row.workload;
-  const int bits = workload.frontend_options().subpixel_bits,
-            peer_bits = std::min(row.peer->subpixel_bits(), kMaxSubpixelBits);
+  const int bits = std::min(row.peer->subpixel_bits(), kMaxSubpixelBits);
   const auto load = [&](PeerPayload payload) {
-    auto frame =
-        row.peer->load(peer_scene(workload, payload, std::max(bits, peer_bits)), row.execution.threads);
+    auto frame = row.peer->load(peer_scene(workload, payload, std::max(bits, 8)), row.execution.threads);
     frame->draw();
     return frame;
   };
@@ -269,7 +266,7 @@ void PeerStage::compare(Row& row) {
   const auto their_ids = load(PeerPayload::id)->read();
   auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
 
-  if (row.peer->exact && bits == peer_bits) {
+  if (row.peer->exact) {
     const PeerJudgement judgement = judge(ours, their_ids, triangles);
     row.depth_ties = judgement.depth_ties;
     if (judgement.wrong() != 0)
@@ -278,7 +275,7 @@ void PeerStage::compare(Row& row) {
           "{})",
           judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
   } else {
-    const PortableJudgement judgement = judge_portable(workload, their_ids, peer_bits);
+    const PortableJudgement judgement = judge_portable(workload, their_ids, bits);
     row.wrong_px = judgement.different;
     if (judgement.wrong != 0)
       row.error = fmt::format("{} pixels show another triangle although they are portable", judgement.wrong);

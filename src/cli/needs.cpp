@@ -22,7 +22,7 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr double kDefaultSeconds = 10.0;
+constexpr double kSeconds = 10.0;  // over which --frames are spread
 constexpr int kMostStudiedFrames = 100'000;
 constexpr int kMostTolerated = 1'000'000'000;
 
@@ -30,7 +30,7 @@ struct NeedsCommandOptions {
   std::vector<std::string> scenes;
   SceneOptions scene;
   int frames = 1, orbit = 0, tolerance = 0, threads = default_threads();
-  std::optional<double> seconds, displacement;
+  std::optional<double> displacement;
   bool json = false;
 };
 
@@ -51,36 +51,6 @@ void turn_camera(Camera& camera, glm::dvec3 centre, double radians) {
 
 std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
-std::string triangles(std::vector<std::uint32_t> ids) {
-  constexpr std::size_t kMost = 3;
-  if (ids.empty()) return "the background";
-  const std::size_t more = ids.size() > kMost ? ids.size() - kMost : 0;
-  ids.resize(ids.size() - more);
-  return fmt::format("triangle{} {}{}", ids.size() > 1 ? "s" : "", fmt::join(ids, ", "),
-                     more == 0 ? "" : fmt::format(" and {} more", more));
-}
-
-// The triangles of `from` that `other` lacks.
-std::vector<std::uint32_t> without(std::vector<std::uint32_t> from, const std::vector<std::uint32_t>& other) {
-  std::erase_if(from,
-                [&](std::uint32_t id) { return std::find(other.begin(), other.end(), id) != other.end(); });
-  return from;
-}
-
-std::string describe(const lab::Witness& w) {
-  if (w.right.size() <= 1 && w.drawn.size() <= 1)
-    return fmt::format("it shows {}, not {}", triangles(w.drawn), triangles(w.right));
-  const auto extra = without(w.drawn, w.right), missing = without(w.right, w.drawn);
-  return missing.empty() ? fmt::format("it also covers {}", triangles(extra))
-                         : fmt::format("it does not cover {}", triangles(missing));
-}
-
-std::string describe(const lab::Answer& answer, const std::string& error) {
-  const lab::Witness& w = *answer.witness;
-  return fmt::format("{}: {} in frame {}; at ({}, {}) {}", answer.name, counted(answer.wrong_px, error),
-                     w.frame, w.x_px, w.y_px, describe(w));
 }
 
 // Breaks text into lines of at most 78 characters.
@@ -108,8 +78,6 @@ std::string text_of(const lab::Question& question) {
     text += indented("proven: " + question.proof);
   else if (needed != nullptr)
     text += indented("seen in " + counted(question.trials, question.trial));
-  const lab::Answer* const next = question.next_weaker();
-  if (next != nullptr) text += indented("not enough: " + describe(*next, question.error));
   return text;
 }
 
@@ -132,13 +100,6 @@ std::string text_of(const lab::Minima& minima, std::uint64_t tolerance_px) {
   return text;
 }
 
-// The last level that is not enough; null if there is none.
-const lab::Level* last_wrong(const lab::Curve& curve) {
-  const auto wrong = std::find_if(curve.levels.rbegin(), curve.levels.rend(),
-                                  [](const lab::Level& level) { return !level.enough(); });
-  return wrong == curve.levels.rend() ? nullptr : &*wrong;
-}
-
 std::string text_of(const lab::Curve& curve, std::uint64_t frames) {
   const std::string stage = name_of(curve.stage);
   if (!curve.proof.empty() && curve.levels.front().wrong_px == curve.levels.back().wrong_px)
@@ -157,11 +118,6 @@ std::string text_of(const lab::Curve& curve, std::uint64_t frames) {
     text += fmt::format("    {:<22}{:>11.1f}{:>9}{:>11.1f}{:>11.1f}{}\n", name, mean(level.wrong_px),
                         level.worst_px, mean(level.hidden_px), level.farthest_px(),
                         level.enough() ? "  enough" : "");
-  }
-  if (const lab::Level* const wrong = last_wrong(curve)) {
-    const lab::Witness& w = *wrong->witness;
-    text += indented(
-        fmt::format("{} in frame {}: at ({}, {}) {}", wrong->name, w.frame, w.x_px, w.y_px, describe(w)));
   }
   return text;
 }
@@ -212,7 +168,6 @@ class NeedsCommand {
   explicit NeedsCommand(const NeedsCommandOptions& options) : options_(options) {
     if (options.orbit > 0 && options.frames > 1)
       throw std::invalid_argument("--frames and --orbit cannot be combined");
-    if (options.seconds && options.frames == 1) throw std::invalid_argument("--seconds needs --frames");
     if (options.orbit > 0 && (options.scene.at || options.scene.yaw_deg || options.scene.pitch_deg))
       throw std::invalid_argument(
           "--orbit looks at the scene's centre: --at, --yaw and --pitch cannot be given");
@@ -253,7 +208,7 @@ class NeedsCommand {
   }
 
   Shot load(const std::string& scene, int frame) const {
-    const double passed = options_.seconds.value_or(kDefaultSeconds) * frame / options_.frames;
+    const double passed = kSeconds * frame / options_.frames;
     return load_shot(scene, options_.scene, options_.scene.time.value_or(0.0) + passed);
   }
 
@@ -340,7 +295,7 @@ Then the wrong pixels of each level while all else is exact, per frame:
   farthest      of the others, in px: from such a pixel to the nearest one at which the exact
                 picture shows the same
 
-Levels, from the least precise on; triangles are numbered in submission order, from 0:
+Levels, from the least precise on:
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop or clip them;
                                "proven" follows from the ranges of the vertices
@@ -357,7 +312,8 @@ Then edges:
   float edges                  methods that compute edges in floats, without a crack
   edge values                  the integers that hold all of these triangles' edge functions
 
-All figures are of these frames only.
+All figures are of these frames only. --json has a wrong pixel of each level that is not enough, and
+the triangles there, numbered in submission order from 0.
 
 Exit status: 0 done, 2 bad input.)";
 
@@ -367,8 +323,7 @@ Action add_needs(CLI::App& command) {
   const auto o = std::make_shared<NeedsCommandOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   add_integer(command, "--frames", o->frames, 1, kMostStudiedFrames,
-              "Frames of a built-in scene's motion (1)");
-  add_number(command, "--seconds", o->seconds, 0, 1e6, "The time over which they are spread (10)");
+              "Frames of a built-in scene's motion, over 10 s (1)");
   add_integer(command, "--orbit", o->orbit, 1, kMostStudiedFrames,
               "Frames of a camera that circles the scene, or spins straight above it");
   add_integer(command, "--tolerance", o->tolerance, 0, kMostTolerated,

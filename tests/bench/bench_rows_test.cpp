@@ -57,16 +57,6 @@ SuiteOptions only(std::vector<std::string> scenes) {
   return options;
 }
 
-TEST(BenchSuite, DrawsAllScenesWithTheSubpixelBits) {
-  SuiteOptions options;
-  options.subpixel_bits = 13;
-  for (const Row& row : make_suite(options)) {
-    if (row.workload) {
-      EXPECT_EQ(row.workload->frontend_options().subpixel_bits, 13) << row.name;
-    }
-  }
-}
-
 TEST(BenchSuite, RefusesTwoSourcesOfOneName) {
   const TempDir a, b;
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -301,33 +291,20 @@ TEST(BenchPipelines, AreTimedBesideTheExactOne) {
             std::string::npos);
 }
 
-// The JSON that the benchmark writes to the file that `option` names.
-nlohmann::json written(const std::string& option, const std::string& arguments) {
+TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
   const TempDir folder;
   const std::string out = (folder.path() / "out.json").string();
-  const auto outcome =
-      testing::run_program(EDGEWISE_BENCH, "--no-peers --" + option + "=" + out + " " + arguments);
+  const auto outcome = testing::run_program(
+      EDGEWISE_BENCH,
+      "--no-peers --benchmark_out=" + out +
+          " '--benchmark_filter=^(tiled/cube|lab/mesh_on_grid/.*float_lt/simd:scalar)/threads:1$'");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return nlohmann::json::parse(file_content(out));
-}
-
-TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
   std::map<std::string, int> times;
-  const auto json =
-      written("benchmark_out",
-              "'--benchmark_filter=^(tiled/cube|lab/mesh_on_grid/.*float_lt/simd:scalar)/threads:1$'");
+  const auto json = nlohmann::json::parse(file_content(out));
   for (const auto& entry : json["benchmarks"])
     if (entry["run_type"] == "iteration") ++times[entry["name"]];
   EXPECT_EQ(times.size(), 2u);
   for (const auto& [name, count] : times) EXPECT_EQ(count, 9) << name;
-}
-
-TEST(BenchProgram, NamesTheFile) {
-  const TempDir folder;
-  const std::string mesh = folder.write("a:b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
-  const auto json = written("benchmark_out", "--fit --size 64x64 --benchmark_repetitions=2 --scene " + mesh +
-                                                 " --benchmark_filter=^tiled.frontend/a_b/threads:");
-  EXPECT_EQ(json["context"]["file a_b"], "a:b.obj, 0 kB");
 }
 
 }  // namespace

@@ -38,14 +38,6 @@ using WrongOnThreads =
       if (execution.threads == 3 && background == 0xFFFFFFFFu) frame.payload[0] += 1;
     }>;
 
-// Skips the last pixel of each row, which leaves gaps in a grid.
-using LeavesGaps = testing::Spoiled<[](FrameView frame, std::uint32_t background, auto) {
-  for (int y = 0; y < frame.height; ++y) {
-    frame.depth[y * frame.stride + frame.width - 1] = 0x7FFFFFFF;
-    frame.payload[y * frame.stride + frame.width - 1] = background;
-  }
-}>;
-
 // Draws the picture correctly, but overwrites the first word behind a row.
 using WritesBesideTheImage = testing::Spoiled<[](FrameView frame, std::uint32_t background, auto) {
   frame.payload[kWrongY * frame.stride + frame.width] = background;
@@ -74,10 +66,7 @@ TEST(Verify, PassesEveryBackendOnEveryScene) {
   ASSERT_EQ(report.scenes.size(), plan.scenes.size());
   for (const SceneVerdict& verdict : report.scenes) {
     EXPECT_TRUE(verdict.ok()) << explain(verdict);
-    EXPECT_GT(verdict.emitted, 0u) << verdict.scene;
     EXPECT_GT(verdict.oracle_configurations, 0u) << verdict.scene;
-    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? backends().size() : 0)
-        << verdict.scene;
   }
 }
 
@@ -153,14 +142,6 @@ TEST(Verify, FindsWritesOutsideTheImage) {
   EXPECT_NE(text.find("words written beside the image: 1"), std::string::npos) << text;
 }
 
-TEST(Verify, FindsGapsInAGrid) {
-  const VerifyReport report = verify_quietly(small_plan({"grid4"}, testing::wrong_backend<LeavesGaps>()));
-  const auto& hits = report.scenes.at(0).hits;
-  ASSERT_EQ(hits.size(), 2u);
-  EXPECT_EQ(hits[0].not_once, 0u);
-  EXPECT_EQ(hits[1].not_once, 41u);
-}
-
 TEST(Verify, KeepsFindingsIfPicturesCannotBeWritten) {
   VerifyPlan plan = small_plan({"cube"}, testing::wrong_backend<OneBitOff>());
   plan.failure_folder = "/dev/null/failures";
@@ -190,7 +171,7 @@ TEST(Verify, TableFits80Columns) {
   verdict.scene = "a-scene-with-a-very-long-name";
   verdict.width = 1920;
   verdict.height = 1080;
-  verdict.triangles = verdict.emitted = 99'999'999;
+  verdict.triangles = 99'999'999;
   verdict.configurations = verdict.differing_pixels = 999'999;
   verdict.oracle_differences = 99'999;
   EXPECT_LE(verify_header().size(), 81u);  // with the newline

@@ -144,30 +144,14 @@ TEST(Clipping, FloatsMoveEdgesWhoseEndsAreFarOutOnBothSides) {
     EXPECT_EQ(judge("near_guard", scene).wrong(), 0u);
 }
 
-// The error of an attribute from 0 to 1 along an edge that is interpolated linearly on the screen, at
-// `fraction` of the edge. w changes from w0 to w1.
-double linear_attribute_error(double w0, double w1, double fraction) {
-  return std::abs(fraction - fraction / w1 / ((1 - fraction) / w0 + fraction / w1));
-}
-
-// The error is .41 half-way, and at most (sqrt 10 - 1) / (sqrt 10 + 1).
 TEST(Clipping, ScreenLinearAttributesAreWrongAlongClippedEdges) {
-  const double most = (std::sqrt(10.0) - 1) / (std::sqrt(10.0) + 1);
-  double worst = 0;
-  for (int i = 0; i <= 1000; ++i) worst = std::max(worst, linear_attribute_error(1, 10, i / 1000.0));
-  EXPECT_NEAR(worst, most, 1e-5);
-
   const ClippingScene road = make_case("road_from_the_side");
   const auto truth = clipping_truth(road);
   const auto linear = score(method("screen_linear"), road, truth);
-  EXPECT_GT(linear.worst_distance, linear_attribute_error(1, 10, 0.5) - 0.01);
-  EXPECT_LE(linear.worst_distance, most);
   EXPECT_GT(linear.wrong_depth, linear.covered / 2);
   EXPECT_EQ(linear.missing + linear.extra, 0u);
-  for (const auto name : {"near_guard", "screen_edges"}) {
+  for (const auto name : {"near_guard", "screen_edges"})
     EXPECT_EQ(score(method(name), road, truth).wrong(), 0u) << name;
-    EXPECT_LT(score(method(name), road, truth).worst_distance, 1e-4) << name;
-  }
 }
 
 // Pictures are right while the depths of floor and wall, at the sample nearest to their intersection, differ

@@ -61,8 +61,7 @@ constexpr Column<Coverage> kPixels[] = {
     {"slits", [](const Coverage& s) { return s.visible.slits; }, false}};
 constexpr Column<lab::VisibilityScores> kVisibility[] = {
     {"snapped", [](const lab::VisibilityScores& s) { return s.snapped.wrong_triangle; }},
-    {"source", [](const lab::VisibilityScores& s) { return s.source.wrong_triangle; }},
-    {"beyond", [](const lab::VisibilityScores& s) { return s.snapped.out_of_range; }, false}};
+    {"source", [](const lab::VisibilityScores& s) { return s.source.wrong_triangle; }}};
 constexpr Column<lab::FacingScores> kFacing[] = {
     {"snapped", [](const lab::FacingScores& s) { return s.snapped.misclassified; }},
     {"source", [](const lab::FacingScores& s) { return s.source.misclassified; }}};
@@ -133,8 +132,7 @@ std::string coverage_table(const Summed& of) {
                     slits);
 }
 std::string visibility_table(const Summed& of) {
-  return of.heading("wrong triangles per 10^6 pixels", "pixels") + of.table(kVisibility, 0) +
-         "beyond: pixels whose depth is outside the depth range of their triangle\n";
+  return of.heading("wrong triangles per 10^6 pixels", "pixels") + of.table(kVisibility, 0);
 }
 std::string facing_table(const Summed& of) {
   return of.heading("misjudged per 10^6 faces that cover a sample", "faces") + of.table(kFacing, 1);

@@ -30,29 +30,14 @@ std::string explain(const Mismatch& m) {
   return text;
 }
 
-std::string names_of(const VerifyPlan& plan) {
-  std::string names;
-  for (const BackendInfo& backend : plan.backends)
-    names += (names.empty() ? "" : ", ") + std::string(backend.name);
-  return names;
-}
-
 nlohmann::json scene_json(const SceneVerdict& v) {
-  nlohmann::json json{{"scene", v.scene},
-                      {"width", v.width},
-                      {"height", v.height},
-                      {"triangles", v.triangles},
-                      {"emitted", v.emitted},
-                      {"configurations", v.configurations},
-                      {"differing_pixels", v.differing_pixels},
-                      {"written_outside", v.written_outside},
-                      {"oracle",
-                       {{"width", v.oracle_width},
-                        {"height", v.oracle_height},
-                        {"configurations", v.oracle_configurations},
-                        {"differing_pixels", v.oracle_differences}}},
-                      {"ok", v.ok()}};
-  for (const HitCount& h : v.hits) json["pixels_not_hit_once"][h.backend] = h.not_once;
+  nlohmann::json json{
+      {"scene", v.scene},
+      {"configurations", v.configurations},
+      {"differing_pixels", v.differing_pixels},
+      {"written_outside", v.written_outside},
+      {"oracle", {{"configurations", v.oracle_configurations}, {"differing_pixels", v.oracle_differences}}},
+      {"ok", v.ok()}};
   json["mismatches"] = nlohmann::json::array();
   for (const Mismatch& m : v.mismatches) json["mismatches"].push_back(explain(m));
   return json;
@@ -67,42 +52,34 @@ std::string describe(const lab::DrawOptions& how) {
                      name_of(resolve(e.target)), e.tile_size, tiles.empty() ? "" : ", ", tiles);
 }
 
-constexpr const char* kLine = "{:<12} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n";
+constexpr const char* kLine = "{:<12} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n";
 
 std::string verify_header() {
-  return fmt::format(kLine, "scene", "size", "triangles", "emitted", "compared", "differ", "oracle",
-                     "verdict");
+  return fmt::format(kLine, "scene", "size", "triangles", "compared", "differ", "oracle", "verdict");
 }
 
 std::string verify_line(const SceneVerdict& v) {
   return fmt::format(kLine, printable_within(v.scene, 12), fmt::format("{}x{}", v.width, v.height),
-                     v.triangles, v.emitted, v.configurations, v.differing_pixels, v.oracle_differences,
+                     v.triangles, v.configurations, v.differing_pixels, v.oracle_differences,
                      v.ok() ? "ok" : "DIFFERS");
 }
 
 std::string explain(const SceneVerdict& verdict) {
   std::string text;
   for (const Mismatch& m : verdict.mismatches) text += explain(m);
-  for (const HitCount& h : verdict.hits)
-    if (h.not_once != 0)
-      text += fmt::format("  {} draws {} pixels not exactly once\n", h.backend, h.not_once);
   return text;
 }
 
 std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
   std::uint64_t configurations = 0, oracle = 0;
   int differing_scenes = 0;
-  std::string once;
   for (const SceneVerdict& v : report.scenes) {
     configurations += v.configurations;
     oracle += v.oracle_configurations;
     differing_scenes += v.ok() ? 0 : 1;
-    if (!v.hits.empty() && v.ok()) once += (once.empty() ? "" : ", ") + printable(v.scene);
   }
-  std::string text;
-  if (!once.empty()) text += fmt::format("{}: every pixel drawn exactly once by {}.\n", once, names_of(plan));
-  text += fmt::format("{} frames compared with {}, {} with the oracle: ", configurations,
-                      plan.backends.front().name, oracle);
+  const std::string text = fmt::format("{} frames compared with {}, {} with the oracle: ", configurations,
+                                       plan.backends.front().name, oracle);
   return text + (report.ok()
                      ? "no bit differs.\n"
                      : fmt::format("{} scene{} DIFFER{}.\n", differing_scenes,

@@ -93,9 +93,6 @@ struct ClippingScore {
   std::uint64_t depth_ties = 0;  // depth ties within tolerance, among wrong_triangle
   std::uint64_t wrong_depth =
       0;  // right triangle, but no depth that it has within kHairlinePx, by more than 2^-20
-  // At pixels with the right triangle: the largest error of the view distance that the depth encodes, as a
-  // fraction of the range from the triangle's nearest vertex to its farthest.
-  double worst_distance = 0;
   std::uint64_t broken = 0;  // wrong pixels, beyond hairline, that the promise rules out
 
   std::uint64_t wrong() const { return missing + extra + wrong_triangle + wrong_depth; }

@@ -139,16 +139,6 @@ void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
   }
 }
 
-std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window w) {
-  std::vector<std::uint32_t> hits(static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height), 0);
-  for (const Run& run : runs) {
-    if (run.y < w.y0 || run.y >= w.y1()) continue;
-    std::uint32_t* row = &hits[static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width)];
-    for (int x = std::max(run.x0, w.x0); x < std::min(run.x1, w.x1()); ++x) ++row[x - w.x0];
-  }
-  return hits;
-}
-
 ErrorDistance::ErrorDistance(std::span<const glm::dvec3> outline) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   low_x_ = low_y_ = kInfinity, high_x_ = high_y_ = -kInfinity;

@@ -91,9 +91,6 @@ constexpr double per_million(std::uint64_t count, std::uint64_t crossings) {
 void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
                          const std::function<void(const Run&, bool missing)>& on_run);
 
-// Hits at each pixel of the window, row by row. Pixels outside the window are ignored.
-std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window window);
-
 // How far a wrong sample lies from the edges and the bounding box of a triangle's outline. An edge without
 // length counts as distance 0.
 class ErrorDistance {

@@ -114,11 +114,6 @@ void Ranges::add_edge_values(const StudiedFrame& frame) {
   }
 }
 
-std::string_view name_of(ViewPlane plane) {
-  constexpr std::string_view kNames[kViewPlanes] = {"near plane", "far plane", "guard band"};
-  return kNames[static_cast<std::size_t>(plane)];
-}
-
 std::string Ranges::describe(ViewPlane plane) const {
   switch (plane) {
     case ViewPlane::near:

@@ -14,7 +14,6 @@ inline constexpr int kMostSubpixelBits = 16;
 
 enum class ViewPlane { near, far, guard };
 inline constexpr int kViewPlanes = 3;
-std::string_view name_of(ViewPlane plane);  // "near plane", "far plane", "guard band"
 
 // How many triangles a plane of the view volume, or the guard band, concerns.
 struct Reach {
