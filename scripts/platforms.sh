@@ -45,7 +45,7 @@ compare_hashes() {
 # facts [COMMAND…]: prints facts of small scenes, and a file of each kind. COMMAND… starts a program of $build.
 facts() {
   local arguments scenes
-  scenes=$(python3 -c 'import json, sys; print(*(s["name"] for s in json.load(sys.stdin)["scenes"] if s["smallest"]))' \
+  scenes=$(python3 -c 'import json, sys; print(*(s["name"] for s in json.load(sys.stdin)["scenes"] if s["kind"] == "small scenes"))' \
     <"$root/results/facts/accuracy.json")
   for arguments in "accuracy $scenes --json -" 'stability legs cycle vertex_w --quick --json -' 'needs cubes --json' \
     'portable cube --json' 'render cubes -o -' 'render cubes -o - --format ppm' 'render cubes --depth -' \

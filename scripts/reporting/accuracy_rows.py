@@ -16,25 +16,21 @@ class Family(NamedTuple):
     trials: str  # the key of a scene's number of trials
     trial: str  # what is tried
     truth: str = "score"  # the key of the scores that are shown
-    beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
 
 
 FAMILIES = {family.name: family for family in (
-    Family("coverage", "wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "source",
-           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box."),
+    Family("coverage", "Wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "source"),
     # All methods draw the same snapped triangles, so the other truth adds the same to each.
-    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "covered pixels", "snapped"),
-    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "visible faces", "source"),
-    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "covered pixels",
-           beyond="More than 10⁶: pixels drawn where nothing should be count as well."),
-    Family("projection", "samples of single triangles that differ from the exact projection of the scene's vertices, per 10⁶ edge crossings",
+    Family("visibility", "Pixels that show the wrong triangle, per 10⁶ covered", "covered", "covered pixels", "snapped"),
+    Family("facing", "Misjudged faces per 10⁶ visible ones", "covered", "visible faces", "source"),
+    Family("clipping", "Wrong pixels, those drawn where nothing should be included, per 10⁶ covered", "covered", "covered pixels"),
+    Family("projection", "Samples of single triangles that differ from the exact projection of the scene's vertices, per 10⁶ edge crossings",
            "crossings", "edge crossings"),
 )}
 
 
-SCALAR = "scalar"  # the name of the form without SIMD
-LEAST_SHARE = 0.01  # of the trials of a family's largest scene
-MESHES, SINGLE, OUR_GRID = "meshes", "single triangles", "vertices on our grid"  # kinds of scenes
+SCALAR, SIMD = "scalar", "simd"
+MESHES, OUR_GRID = "meshes", "vertices on our grid"  # kinds of scenes
 UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
 
 
@@ -42,40 +38,11 @@ UNLIMITED_PX = 4096  # the largest triangles for which any method promises anyth
 class Method:
     name: str
     source: str
-    max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
-
-    @property
-    def limit_px(self):
-        """Beyond triangles of this size the method's integers overflow; None if every triangle on a screen is in range."""
-        return self.max_side_px if self.max_side_px and self.max_side_px < UNLIMITED_PX else None
+    max_side_px: float | None = None  # coverage: the integers of triangles with larger boxes overflow
 
     @property
     def ours(self):
         return self.source.startswith(("src/", "edgewise/", "frontend/"))
-
-
-class Seen(NamedTuple):
-    """Pixels of a picture that show the wrong triangle; those where something shows through; and background one pixel wide between
-    triangles of meshes, which the exact picture may have, too."""
-    wrong: int
-    through: int
-    slits: int | None = None  # None in older measurements of peers
-
-
-class Pooled(NamedTuple):
-    """A rate per 10⁶ over several scenes; and over half of its errors are in one, that scene and the rate without it."""
-    rate: float
-    mostly_on: str | None = None
-    without: float | None = None
-
-
-def pooled(found, scale=1.0):
-    """Of [(errors, trials, scene's name)]; `scale` makes their quotient a rate per 10⁶."""
-    errors, trials = (sum(one[i] for one in found) for i in (0, 1))
-    for most, tried, name in found:
-        if 2 * most > errors and trials > tried:
-            return Pooled(scale * errors / trials, name, scale * (errors - most) / (trials - tried))
-    return Pooled(scale * errors / trials)
 
 
 @dataclass(frozen=True)
@@ -83,19 +50,9 @@ class Measured:
     """One method on one scene."""
     method: Method
     rate: float  # errors per 10⁶
-    t_junctions: int | None = None  # coverage only: samples of cracks there
-    forms: dict = field(default_factory=dict)  # rows by (SIMD target, threads); empty where the scene is not timed
-    seen: Seen | None = None  # coverage only
-
-    @property
-    def scalar(self):
-        """The row of the scalar form on one thread, or None."""
-        return self.forms.get((SCALAR, 1))
-
-    @property
-    def simd(self):
-        """The row of the SIMD form on one thread, or None."""
-        return next((row for (target, threads), row in self.forms.items() if target != SCALAR and threads == 1), None)
+    forms: dict  # the rows on one thread of the forms SCALAR and SIMD; empty where the scene is not timed
+    wrong: int  # coverage: pixels of a picture that show the wrong triangle
+    through: int  # coverage: those where something shows through
 
 
 @dataclass(frozen=True)
@@ -105,11 +62,12 @@ class Scene:
     trials: int
     measured: tuple
     largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
-    kind: str = MESHES  # coverage only: or OUR_GRID, or single triangles, or small scenes
+    kind: str = MESHES  # coverage only: or OUR_GRID, or others
 
     def in_range_of(self, method):
         """Beyond its range a method's integers overflow, which is another fault than the one that is counted."""
-        return method.limit_px is None or self.largest_side_px <= method.limit_px
+        limit = method.max_side_px or UNLIMITED_PX
+        return limit >= UNLIMITED_PX or self.largest_side_px <= limit
 
     def of(self, method):
         """The measurement of the method with this name, or None."""
@@ -120,29 +78,13 @@ class Scene:
 class Accuracy:
     methods: dict  # by family, in the registry's order
     scenes: tuple
-    cube: dict | None  # {"frames", "methods": [(Method, gaps, double hits, wrong samples)]}: of all frames
+    cube: dict = field(default_factory=dict)  # of all frames of the turning cube: {method's name: (gaps, double hits)}
+    frames: int = 0  # of the cube
     flicker: dict = field(default_factory=dict)  # {moving scene: {method's name: superfluous changes per 10⁶ true ones}}
     choices: tuple = ()  # of choice.Panel
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
-
-    def pooled(self, family):
-        """The scenes that count in rates of the whole family: in smaller ones a single trial decides, and vertices on our grid favour
-        ours."""
-        scenes = [scene for scene in self.of(family) if scene.kind != OUR_GRID]
-        return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
-
-    def rate(self, family, method):
-        """Pooled errors per 10⁶, of the pooled scenes within the method's range; None if it was not measured there."""
-        found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in self.pooled(family)
-                 if scene.in_range_of(method) and (m := scene.of(method.name))]
-        return pooled(found) if any(trials for _, trials, _ in found) else None
-
-    def scenes_with_errors(self, family):
-        """{method's name: the number of scenes in which it errs}"""
-        return {method.name: sum(m.rate > 0 for scene in self.of(family) for m in scene.measured if m.method == method)
-                for method in self.methods[family]}
 
 
 @dataclass(frozen=True)
@@ -164,30 +106,17 @@ class Sweep:
 
 def parse_measured(entry, family, method, forms):
     score = entry[FAMILIES[family].truth]
-    if family != "coverage":
-        return Measured(method, float(score["errors_per_million"]), forms=forms)
-    return Measured(method, float(score["errors_per_million"]), int(entry["cracks"]["t_junctions"]), forms,
-                    Seen(*(int(score[key]) for key in ("wrong_pixels", "wrong_surface_pixels")), score.get("slits")))
-
-
-def parse_cube(data, methods):
-    cube = data.get("turning_cube")
-    if not cube:
-        return None
-
-    found = [(methods["coverage", entry["name"]], {key: int(entry[key]["total"]) for key in ("gaps", "double_hits", "extra", "missing")})
-             for entry in cube["methods"]]
-    return {"frames": int(cube["frames"]), "methods": [(method, of["gaps"], of["double_hits"], of["extra"] + of["missing"])
-                                                       for method, of in found]}
+    wrong, through = (int(score[key]) if family == "coverage" else 0 for key in ("wrong_pixels", "wrong_surface_pixels"))
+    return Measured(method, float(score["errors_per_million"]), forms, wrong, through)
 
 
 def times_of(bench):
-    """{(family, scene, method): {(SIMD target, threads): row}}"""
+    """{(family, scene, method): {SCALAR or SIMD: row}} on one thread"""
     found = {}
     for row in bench.sweep("method") if bench else ():
-        if row.backend == LABORATORY:
+        if row.backend == LABORATORY and row.threads == 1:
             keys = row.keys
-            found.setdefault((keys["family"], row.scene, keys["method"]), {})[keys["simd"], row.threads] = row
+            found.setdefault((keys["family"], row.scene, keys["method"]), {})[SCALAR if keys["simd"] == SCALAR else SIMD] = row
     return found
 
 
@@ -199,16 +128,17 @@ def parse_accuracy(data, bench=None):
         family = FAMILIES[scene["family"]]
         triangles = int(scene["triangles"])
         measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]],
-                                   {form: row for form, row in
-                                    times.get((family.name, scene["name"], entry["name"]), {}).items()
+                                   {form: row for form, row in times.get((family.name, scene["name"], entry["name"]), {}).items()
                                     if row.counters["triangles"] == triangles})  # else timed on a scene of another size
                     for entry in scene["methods"] if (family.name, entry["name"]) in methods]
         scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]), tuple(measured), float(scene.get("largest_side_px", 0.0)),
                             scene["kind"]))
     by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
+    cube = data.get("turning_cube") or {"methods": (), "frames": 0}
     flicker = {motion["name"]: {entry["name"]: 1e6 * entry["superfluous"] / motion["changes"] for entry in motion["methods"]}
                for motion in data.get("motions", ())}
-    return Accuracy(by_family, tuple(scenes), parse_cube(data, methods), flicker, parse_choices(data.get("choices", ())))
+    return Accuracy(by_family, tuple(scenes), {of["name"]: (of["gaps"]["total"], of["double_hits"]["total"]) for of in cube["methods"]},
+                    cube["frames"], flicker, parse_choices(data.get("choices", ())))
 
 
 def with_peers(data, peers):

@@ -13,7 +13,7 @@ import noise
 from program import BadInput, read_json
 
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
-COUNTERS = ("triangles", "width", "height", "covered_px", "overdraw", "peak_bytes", "depth_ties", "wrong_px")
+COUNTERS = ("triangles", "width", "height", "covered_px", "overdraw", "depth_ties", "wrong_px")
 DIGITS = 5  # of the times in results/: more than any noise, so that no verdict changes
 LABORATORY = "lab"
 
@@ -62,11 +62,6 @@ def gained(before, after):
     return noise.median_ratio(*compared(after, before))
 
 
-def gained_interval(before, after):
-    """The interval of gained()."""
-    return noise.ratio_interval(*compared(after, before))
-
-
 def parse_name(name):
     who, *rest = name.split("/")
     pairs = [part.partition(":") for part in rest]
@@ -83,8 +78,7 @@ class Bench:
 
     @property
     def backends(self):
-        named = self.context.get("backends", "").split()
-        return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend not in ("", "cell", LABORATORY)))
+        return self.context.get("backends", "").split()
 
     @property
     def peers(self):
@@ -149,8 +143,8 @@ def read_rows(entries):
     rows = {}
     for name, entry in entries.items():
         rows[name] = row = parse_name(name)
-        row.times_ms, row.error = [float(ms) for ms in entry.pop("ms")], entry.pop("error", "")
-        row.counters = {key: float(value) for key, value in entry.items()}
+        row.times_ms, row.error = [float(ms) for ms in entry["ms"]], entry.get("error", "")
+        row.counters = {key: float(entry[key]) for key in COUNTERS if key in entry}
     return rows
 
 

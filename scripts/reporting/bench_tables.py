@@ -3,7 +3,7 @@ import os
 
 from bench_rows import describe_machine, gained, order, read_bench
 from program import read_json
-from tables import VECTORS, about, by_order, gain, milliseconds, number, outcome, with_width
+from tables import VECTORS, about, by_order, milliseconds, number, outcome, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -11,26 +11,18 @@ OURS = "tiled"  # the backend that represents ours
 GPU = "gpu"  # the peer that has no number of threads
 
 
-def scene_facts(bench, scene):
-    """Triangles submitted, and overdraw."""
-    front = bench.find(f"frontend/{scene}/threads:1")
-    frame = next((row for backend in bench.backends if (row := bench.frame(backend, scene, 1))), None)
-    triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
-    overdraw = f"{frame.counters['overdraw']:.2f}" if frame else "–"
-    return triangles, overdraw
-
-
 def speed_table(bench):
     """Header and lines: whole frames of ours and of peers, one line per scene; bold: the settled fastest of ours."""
     lines = []
     for scene in bench.scenes:
         ours = {backend: row for backend in bench.backends if (row := bench.frame(backend, scene, max(THREADS)))}
+        front, any_frame = bench.find(f"frontend/{scene}/threads:1"), next(iter(ours.values()), None)
 
         def cell(row):
             best = all(order(row, other) < 0 for other in ours.values() if other is not row)
             return f"**{milliseconds(row)}**" if best and len(ours) > 1 else milliseconds(row)
 
-        lines.append([scene, *scene_facts(bench, scene),
+        lines.append([scene, f"{front.counters['triangles']:,.0f}" if front else "–", f"{any_frame.counters['overdraw']:.2f}" if any_frame else "–",
                       *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
                       *(milliseconds(peer_frame(bench, peer, scene, max(THREADS))) for peer in bench.peers)])
     return ["scene", "triangles", "overdraw", *bench.backends, *bench.peers], lines
@@ -115,27 +107,6 @@ def engine_table(bench):
         if any(run in rows for rows in scenes.values()):
             lines.append([title, *(against_base(rows[BASE], rows.get(run)) for rows in scenes.values())])
     return ["numbers", *(f"`{scene}`" for scene in scenes)], lines if scenes else []
-
-
-def memory_sentence(bench):
-    """The peak memory of front end, frame and backend, in the first frame."""
-    rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
-    if not rows:
-        return "Memory was not measured."
-
-    def pixels(row):
-        return row.counters["width"] * row.counters["height"]
-
-    def share(row):
-        return row.counters["peak_bytes"] / (100 * row.counters["triangles"] + 16 * pixels(row))
-
-    fewest = min(rows, key=lambda row: (row.counters["triangles"], -row.counters["peak_bytes"]))
-    most = max(rows, key=lambda row: (row.counters["triangles"], row.counters["peak_bytes"]))
-    a_pixel = fewest.counters["peak_bytes"] / pixels(fewest)
-    a_triangle = (most.counters["peak_bytes"] - a_pixel * pixels(most)) / most.counters["triangles"]
-    worst = max(rows, key=share)
-    return (f"The first frame takes {a_pixel:.1f} bytes per pixel plus {a_triangle:.0f} per triangle, at most {share(worst):.0%} of what "
-            f"`edgewise/backend.h` allows small triangles (`{worst.backend}` on `{worst.scene}`); large ones may take more.")
 
 
 def other_folders(folder):

@@ -35,7 +35,7 @@ def of_machine(folder):
 
     def factor(name):
         """{where: Gain} of a factor with SIMD."""
-        return timed({gain.where: gain for gain in gains(bench) if gain.simd and gain.factor == name})
+        return timed({gain.where: gain for gain in gains(bench) if gain.factor == name})
 
     def bands(threads, are_streams):
         """The speed-ups of `tiled` over the fastest cell with SIMD in bands, one per scene: of STREAMS, or of all others."""

@@ -1,5 +1,6 @@
 """Compares rows of two results; or builds the benchmark of two revisions, times both by turns, and judges each row by its paired
 rounds."""
+import math
 import os
 import random
 import re
@@ -11,7 +12,6 @@ import tempfile
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import count
 from pathlib import Path
 from statistics import geometric_mean
 
@@ -69,24 +69,18 @@ def revision(name):
 
 
 def finished(command, **options):
-    """The ended process and its output. An interruption ends its children, too."""
+    """The ended process, with its output. Ctrl-C reaches it, too."""
     try:
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, text=True, errors="replace", start_new_session=True, **options)
+        return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, errors="replace", check=False, **options)
     except OSError as error:
         raise BadInput(f"{command[0]}: {error.strerror}") from None
-    with process:
-        try:
-            return process, *process.communicate()
-        except BaseException:
-            os.killpg(process.pid, signal.SIGTERM)  # Ninja then ends its compilers
-            raise
 
 
 def run(command, what):
     """Raises BadInput, after the last lines of the output, if the command fails."""
-    done, output, _ = finished(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    done = finished(command, stderr=subprocess.STDOUT)
     if done.returncode != 0:
-        print(*output.splitlines()[-LINES_OF_A_FAILURE:], sep="\n", file=sys.stderr)
+        print(*done.stdout.splitlines()[-LINES_OF_A_FAILURE:], sep="\n", file=sys.stderr)
         raise BadInput(f"{what} failed; see above")
 
 
@@ -140,7 +134,6 @@ def copies(revisions, rounds):
                 link(of, random.randint(1, PAGE))
                 program(side, i).parent.mkdir(parents=True)
                 shutil.copy(of.build / PROGRAM, program(side, i))
-        show("")
         yield sides
 
 
@@ -151,11 +144,10 @@ def program(side, i):
 def started(side, i, *flags):
     """Runs a program of this side in its folder. Both sides have the same arguments, since their length can move the stack."""
     environment = {**os.environ, "EDGEWISE_PADDING": "x" * random.randrange(PAGE)}
-    done, output, errors = finished([f"./{program(side, i).relative_to(side)}", *flags], cwd=side, env=environment, stdout=subprocess.PIPE,
-                                    stderr=subprocess.PIPE)
+    done = finished([f"./{program(side, i).relative_to(side)}", *flags], cwd=side, env=environment, stderr=subprocess.PIPE)
     if done.returncode not in (0, 1):  # 1: a row drew other pixels
-        raise BadInput(f"{PROGRAM} ended with {done.returncode}: {(errors.strip().splitlines() or ['no message'])[-1]}")
-    return output
+        raise BadInput(f"{PROGRAM} ended with {done.returncode}: {(done.stderr.strip().splitlines() or ['no message'])[-1]}")
+    return done.stdout
 
 
 def names(side, pattern):
@@ -182,7 +174,7 @@ VERDICTS = SLOWER, FASTER, FEW, SAME = "slower", "faster", "too few repetitions"
 @dataclass
 class Row:
     sides: list  # the rows before and after, with their counters; of rounds the last
-    times: tuple  # of each side, the times of its repetitions, round by round
+    ms: tuple  # of each side, the time of each round
     rounds: bool = True  # else the two were timed at different times, with one repetition a round
     least: float = 0.0  # smaller changes don't count
     verdict: str = SAME
@@ -190,11 +182,6 @@ class Row:
     @property
     def error(self):
         return self.sides[0].error or self.sides[1].error
-
-    @property
-    def ms(self):
-        """Of each side, the medians of the rounds."""
-        return [[noise.median(times) for times in side] for side in self.times]
 
     @property
     def ratio(self):
@@ -213,15 +200,15 @@ class Row:
     def told(self, order):
         if abs(self.ratio - 1) < self.least:
             return SAME
-        few = not self.rounds and not noise.enough(*map(len, self.times))
+        few = not self.rounds and not noise.enough(*map(len, self.ms))
         return {-1: FASTER, 0: FEW if few else SAME, 1: SLOWER}[order]
 
 
 def judge(rows):
     """Sets the verdicts. Rows of rounds are judged as a family. Two results have too many rows with too few repetitions for that."""
     claims = [row.claim for row in rows]
-    judge_all = noise.family if all(row.rounds for row in rows) else noise.alone
-    for row, order in zip(rows, judge_all(claims)):
+    orders = noise.family(claims) if all(row.rounds for row in rows) else [noise.settled(*claim) for claim in claims]
+    for row, order in zip(rows, orders):
         row.verdict = row.told(order)
 
 
@@ -232,36 +219,29 @@ def show(text):
 
 
 def time_rounds(sides, pattern, fewest, rounds, limit_s):
-    """{name: Row} after `rounds`; where it is None, after as many as fit into `limit_s`: the first ROUNDS, and these again."""
-    rows, start, programs = {}, time.monotonic(), rounds or ROUNDS
-    try:
-        for done in count():
-            spent = time.monotonic() - start
-            fit = done * limit_s / spent if done else 0
-            if rounds is None and done == 1 and fit < fewest:
-                raise BadInput(f"one round takes {spent:.0f} s, and {fewest} are the fewest that settle so many rows: "
-                               f"--minutes {fewest * spent / 60 + 1:.0f} or fewer rows are needed")
-            if done == rounds or rounds is None and done and done + 1 > fit:
-                return rows
-            show(f"round {done + 1}{f' of {rounds}' if rounds else ''}, {spent:.0f} s"
-                 f"{'' if rounds else f' of {limit_s:.0f}'}")
-            # Before, after, after, before: a steady drift of the machine favours neither side.
-            results = [None, None]
-            for side in (0, 1) if done % 2 == 0 else (1, 0):
-                results[side] = timed(sides[side], done % programs, pattern)
-            for name in (name for name in results[0].rows if name in results[1].rows):
-                now = [result.rows[name] for result in results]
-                row = rows.setdefault(name, Row(now, ([], [])))
-                if bool(row.error) != any(side.error for side in now):
-                    raise BadInput(f"{name}: some rounds failed, others did not: the programs draw different pixels from time to time")
-                row.sides = now
-                if not row.error:
-                    for times, new in zip(row.times, row.sides):
-                        if done < programs:
-                            times.append([])
-                        times[done % programs] += new.times_ms
-    finally:
-        show("")
+    """{name: Row} after `rounds`; where it is None, after as many of ROUNDS as fit into `limit_s`."""
+    rows, start = {}, time.monotonic()
+    for i in range(rounds or ROUNDS):
+        spent = time.monotonic() - start
+        fit = i * limit_s / spent if i and rounds is None else math.inf
+        if i == 1 and fit < fewest:
+            raise BadInput(f"one round takes {spent:.0f} s, and {fewest} are the fewest that settle so many rows: "
+                           f"--minutes {fewest * spent / 60 + 1:.0f} or fewer rows are needed")
+        if i + 1 > fit:
+            break
+        show(f"round {i + 1} of {rounds or ROUNDS}, {spent:.0f} s{'' if rounds else f' of {limit_s:.0f}'}")
+        # Before, after, after, before: a steady drift of the machine favours neither side.
+        results = {side: timed(sides[side], i, pattern) for side in ((0, 1) if i % 2 == 0 else (1, 0))}
+        for name in (name for name in results[0].rows if name in results[1].rows):
+            now = [results[side].rows[name] for side in (0, 1)]
+            row = rows.setdefault(name, Row(now, ([], [])))
+            if bool(row.error) != any(side.error for side in now):
+                raise BadInput(f"{name}: some rounds failed, others did not: the programs draw different pixels from time to time")
+            row.sides = now
+            for ms, new in zip(row.ms, () if row.error else now):
+                ms.append(new.median_ms)
+    show("")
+    return rows
 
 
 def line(name, row, width):
@@ -269,11 +249,6 @@ def line(name, row, width):
     before_ms, after_ms = map(noise.median, row.ms)
     return (f"  {name:<{width}} {before_ms:>8.3f} → {after_ms:>8.3f} ms "
             f"{row.ratio:>6.3f}  ({low:.3f} to {high:.3f})")
-
-
-def print_names(title, found):
-    if found:
-        print(f"\n{title}", *(f"  {name}" for name in found), sep="\n")
 
 
 def print_rows(rows, medians_of, verdicts):
@@ -288,13 +263,10 @@ def print_rows(rows, medians_of, verdicts):
 
 
 def record(before, after, pattern, rounds, rows):
-    def one(name, row):
-        (low, high), (before_ms, after_ms) = row.interval, row.ms
-        return {"name": name, "verdict": row.verdict, "ratio": row.ratio, "low": low, "high": high,
-                "before_ms": before_ms, "after_ms": after_ms}
-
     return {"before": before.title, "after": after.title, "filter": pattern, "rounds": rounds, "layouts": True, "level": noise.LEVEL,
-            "confidence": noise.CONFIDENCE, "rows": [one(*item) for item in rows.items()]}
+            "confidence": noise.CONFIDENCE,
+            "rows": [{"name": name, "verdict": row.verdict, "ratio": row.ratio, **dict(zip(("low", "high"), row.interval)),
+                      **dict(zip(("before_ms", "after_ms"), row.ms))} for name, row in rows.items()]}
 
 
 def compare_revisions(before, after, pattern, rounds, minutes, out):
@@ -335,17 +307,19 @@ def print_compared(rows, listed, verdicts=VERDICTS):
     different = [name for name, row in rows.items() if not row.error and other_work(*row.sides)]
     judged = {name: row for name, row in rows.items() if not row.error and name not in different}
     judge(judged.values())
-    done = max((len(row.times[0]) for row in rows.values() if row.rounds), default=0)
+    done = max((len(row.ms[0]) for row in rows.values() if row.rounds), default=0)
     print(f"\n{done} rounds, before and after by turns; " if done else "", end="")
     print_rows(judged, "rounds" if done else "repetitions", verdicts)
     if judged and done:
         print(f"\nThe chance that any of these changes is false: at most {percent(noise.LEVEL)}.")
     elif judged:
         print(f"\nIf nothing changed, at most {number(noise.LEVEL * len(judged), 2)} rows in {len(judged)} would be told as changed.")
-    print_names("Not compared: other triangles, pixels or size", different)
-    print_names("Not compared: error", failed)
-    for side, other, title in ((0, 1, "Only before"), (1, 0, "Only after")):
-        print_names(title, [name for name in listed[side] if name not in listed[other]])
+    before, after = listed
+    for title, names_of in (("Not compared: other triangles, pixels or size", different), ("Not compared: error", failed),
+                            ("Only before", [name for name in before if name not in after]),
+                            ("Only after", [name for name in after if name not in before])):
+        if names_of:
+            print(f"\n{title}", *(f"  {name}" for name in names_of), sep="\n")
     if judged:
         print("\n" + means({name: row.ratio for name, row in judged.items()}))
     return done, judged
@@ -357,5 +331,6 @@ def interruptible(compare):
     try:
         return compare()
     except KeyboardInterrupt:
+        show("")
         print("compare: interrupted: no result", file=sys.stderr)
         return 130

@@ -6,8 +6,8 @@ from itertools import product
 from typing import NamedTuple
 
 from bench_rows import gained, order
-from noise import LEVEL, interval, median
-from tables import about, kernels, number
+from noise import interval, median
+from tables import about, kernels
 
 SCALAR = "scalar"
 HIZ, MASKS = "hiz", "hiz+masks"
@@ -41,43 +41,36 @@ def chosen(found, **levels):
     return {cell: row for cell, row in found.items() if all(getattr(cell, field) == level for field, level in levels.items())}
 
 
-def everywhere(_):
-    return True
-
-
 def triangle_px(row):
     """Covered pixels per triangle, culled ones included."""
     return row.counters["covered_px"] / row.counters["triangles"]
 
 
-def factors(simd, threads):
-    """(factor, where, field of a cell, level before, level after, levels of other factors: where, whether a row's scene is meant)"""
+def factors(threads):
+    """(factor, where, field of a cell, level before, level after, levels of other factors, whether a row's scene is meant)"""
+    def everywhere(_):
+        return True
+
     for fill in FILLS:
         yield "tiles over bands", f"with {fill}", "traversal", *TRAVERSALS, {"fill": fill}, everywhere
     for traversal in TRAVERSALS:
         yield "edges over spans", f"in {traversal}", "fill", *FILLS, {"traversal": traversal}, everywhere
-    if simd:
-        for traversal, fill in product(TRAVERSALS, FILLS):
-            yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}, everywhere
-        for where, deep in ((f"overdraw ≥{DEEP}", True), (ELSEWHERE, False)):
-            yield "HiZ", where, "extra", "", HIZ, {}, lambda row, deep=deep: (row.counters["overdraw"] >= DEEP) == deep
-        for where, small in ((f"triangles ≤{SMALL_PX} px", True), (ELSEWHERE, False)):
-            yield "masks, with HiZ", where, "extra", HIZ, MASKS, {}, lambda row, small=small: (triangle_px(row) <= SMALL_PX) == small
+    for traversal, fill in product(TRAVERSALS, FILLS):
+        yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}, everywhere
+    for where, deep in ((f"overdraw ≥{DEEP}", True), (ELSEWHERE, False)):
+        yield "HiZ", where, "extra", "", HIZ, {}, lambda row, deep=deep: (row.counters["overdraw"] >= DEEP) == deep
+    for where, small in ((f"triangles ≤{SMALL_PX} px", True), (ELSEWHERE, False)):
+        yield "masks, with HiZ", where, "extra", HIZ, MASKS, {}, lambda row, small=small: (triangle_px(row) <= SMALL_PX) == small
     yield f"{threads} threads over 1", "no HiZ or masks", "threads", 1, threads, {}, everywhere
 
 
 class Gain(NamedTuple):
-    """The speed-ups by a factor in cells with or without SIMD: each pair is of two cells of a scene that differ in nothing else."""
+    """The speed-ups by a factor in cells with SIMD: each pair is of two cells of a scene that differ in nothing else."""
     factor: str
     where: str
     field: str  # of a cell
-    simd: bool
     pairs: list  # (speed-up, scene), the smallest first
     orders: list  # order() of each pair
-
-    @property
-    def title(self):
-        return f"{self.factor}, {self.where}"
 
     @property
     def by_scene(self):
@@ -101,84 +94,17 @@ class Gain(NamedTuple):
 
 
 def gains(bench):
-    """A Gain of each factor on the most threads, in all scenes: with SIMD, then in scalar code."""
+    """A Gain of each factor on the most threads, in all scenes."""
     found = cells(bench)
-    for simd in (True, False):
-        for factor, where, field, before, after, levels, meant in factors(simd, most_threads(found)):
-            pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": simd, **levels, field: after}).items()
-                     if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
-            if pairs:
-                yield Gain(factor, where, field, simd, sorted((gained(other, row), scene) for scene, other, row in pairs),
-                           [order(row, other) for _, other, row in pairs])
+    for factor, where, field, before, after, levels, meant in factors(most_threads(found)):
+        pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": True, **levels, field: after}).items()
+                 if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
+        if pairs:
+            yield Gain(factor, where, field, sorted((gained(other, row), scene) for scene, other, row in pairs),
+                       [order(row, other) for _, other, row in pairs])
 
 
 def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
-    found = {(gain.title, gain.simd): gain for gain in gains(bench)}
-
-    def line(title):
-        simd, scalar = (found.get((title, simd)) for simd in (True, False))
-        return [title, simd.text if simd else "–", simd.counts if simd else "–", scalar.text if scalar else "–"]
-
-    return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower", SCALAR],
-            [line(title) for title in dict.fromkeys(title for title, _ in found)])
-
-
-def conditions(bench, shown):
-    """What these Gains are, and how many of their verdicts may be false."""
-    pairs = sum(len(gain.pairs) for gain in shown)
-    return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor, as implemented here; of "
-            f"{pairs} verdicts, at most {number(LEVEL * pairs, 2)} false ones are expected.")
-
-
-class Duel(NamedTuple):
-    """Bands against tiles in one scene, without HiZ and masks: cells and, with SIMD, the backend `scanline`."""
-    scene: str
-    triangle_px: float
-    overdraw: float
-    bands: dict  # {fill or "scanline": row}, the fastest first
-    tiles: dict
-    shipped: object  # the row of the backend `tiled`, with HiZ and masks; None for scalar code
-
-    @property
-    def fastest(self):
-        """The rows of both sides."""
-        return next(iter(self.bands.values())), next(iter(self.tiles.values()))
-
-    @property
-    def order(self):
-        """-1 if the fastest bands are faster than all tiles, 1 if the fastest tiles are than all bands, 0 if neither is settled."""
-        bands, tiles = self.fastest
-        if all(order(bands, row) < 0 for row in self.tiles.values()):
-            return -1
-        return int(all(order(tiles, row) < 0 for row in self.bands.values()))
-
-    @property
-    def only_shipped(self):
-        """Whether tiles win settled with HiZ and masks alone."""
-        return self.order != 1 and self.shipped is not None and all(order(self.shipped, row) < 0 for row in self.bands.values())
-
-    @property
-    def ratio(self):
-        """The speed-up of bands over tiles."""
-        return gained(*reversed(self.fastest))
-
-    @property
-    def winner(self):
-        """("bands" or "tiles", what draws them)"""
-        return ("bands", next(iter(self.bands))) if self.ratio > 1 else ("tiles", next(iter(self.tiles)))
-
-
-def duels(bench, simd):
-    """On the most threads, in the suite's order."""
-    found = cells(bench)
-    for scene in dict.fromkeys(cell.scene for cell in found):
-        bands, tiles = ({cell.fill: row for cell, row in chosen(found, scene=scene, simd=simd, traversal=traversal).items()}
-                        for traversal in TRAVERSALS)
-        if bands and tiles:
-            seen = next(iter(bands.values()))
-            if simd and (row := bench.frame("scanline", scene, most_threads(found))):
-                bands["scanline"] = row
-            yield Duel(scene, triangle_px(seen), seen.counters["overdraw"],
-                       *(dict(sorted(side.items(), key=lambda pair: pair[1].median_ms)) for side in (bands, tiles)),
-                       bench.frame("tiled", scene, most_threads(found)) if simd else None)
+    return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower"],
+            [[f"{gain.factor}, {gain.where}", gain.text, gain.counts] for gain in gains(bench)])

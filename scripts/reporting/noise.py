@@ -82,11 +82,6 @@ def settled(sign, p):
     return sign if p <= LEVEL else 0
 
 
-def alone(claims):
-    """The orders of claims, each for itself."""
-    return [settled(*claim) for claim in claims]
-
-
 def ratios(before, after):
     """Of each round: the time after over the time before."""
     return [b / a for a, b in zip(before, after, strict=True)]
@@ -138,43 +133,27 @@ def middle_of(figures):
     return ordered[outside], ordered[-1 - outside]
 
 
-def resampled(values, generator):
-    return median(generator.choices(values, k=len(values)))
-
-
 def median_ratio(before, after, are_rounds):
     """The median of the rounds' ratios, or the ratio of unpaired repetitions' medians."""
     return median(ratios(before, after)) if are_rounds else median(after) / median(before)
 
 
-def resampled_ratio(before, after, are_rounds, generator):
-    if are_rounds:
-        return resampled(ratios(before, after), generator)
-    return resampled(after, generator) / resampled(before, generator)
-
-
-def bootstrap(resample):
-    """The interval of a figure that `resample` draws from a generator of random numbers: the same each time."""
-    generator = random.Random(1)
-    return middle_of([resample(generator) for _ in range(RESAMPLES)])
-
-
 @cache
-def interval_of(values):
-    return bootstrap(lambda generator: resampled(values, generator))
+def bootstrap(*lists):
+    """The interval of the median of the first list, or of its ratio to the second one's: the same each time."""
+    generator = random.Random(1)
+    return middle_of([ratio_of([median(generator.choices(values, k=len(values))) for values in lists]) for _ in range(RESAMPLES)])
+
+
+def ratio_of(medians):
+    return medians[0] / medians[1] if medians[1:] else medians[0]
 
 
 def interval(values):
-    """The bootstrap interval of the median; with up to five repetitions, from the fastest to the slowest. Of the ratios of
-    paired rounds it is the interval of their median."""
-    return interval_of(tuple(values))
-
-
-@cache
-def interval_of_ratio(before, after, are_rounds):
-    return bootstrap(lambda generator: resampled_ratio(before, after, are_rounds, generator))
+    """The bootstrap interval of the median; with up to five repetitions, from the fastest to the slowest."""
+    return bootstrap(tuple(values))
 
 
 def ratio_interval(before, after, are_rounds=False):
     """The bootstrap interval of median_ratio()."""
-    return interval_of_ratio(tuple(before), tuple(after), are_rounds)
+    return interval(ratios(before, after)) if are_rounds else bootstrap(tuple(after), tuple(before))

@@ -1,9 +1,13 @@
 """The main chart: which method to choose. Wrong pixels of a whole picture against its time, a panel for each kind of scene."""
+import math
+
+from matplotlib.ticker import LogLocator, NullLocator
+
 from bench_rows import order
 from choice import OURS, PEERS, TITLES
 from plot_labels import Label, label_points
-from plot_style import FAINT, GREEN, INK, WHISKER, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
-from tables import kernels
+from plot_style import BAND, FAINT, GREEN, INK, WHISKER, foot_in, head_in, headline, plt, save
+from tables import kernels, short
 
 WIDTH_IN, PANEL_IN, GAP_IN = 6.4, 2.3, 0.75  # narrow, so that a phone shows it in readable type
 FIRST = "tiled_8"  # of ours, whose label has its name
@@ -20,60 +24,60 @@ def choice_title(panels):
     return f"Of methods without holes, tiled is fastest in {sum(map(won, panels))} of {len(panels)} scenes"
 
 
-def place_of(axes, scale, point):
-    """In parts of the panel's width and height."""
-    return axes.transAxes.inverted().transform(axes.transData.transform((scale.at(point.wrong.mean), point.row.median_ms)))
-
-
 def kind_of(point):
     """What a label's colour shows: whether a hole shows, and whether it is ours."""
     return bool(point.wrong.holes), point.method.startswith(OURS)
 
 
-def labels_of(axes, points, scale):
+def labels_of(axes, points):
     """Points that lie on one another share a label."""
     groups = []
     for point in points:
-        x, y = place_of(axes, scale, point)
+        x, y = axes.transLimits.transform(axes.transScale.transform((point.wrong.mean, point.row.median_ms)))  # in parts of the panel
         near = [group for at_x, at_y, group in groups if abs(at_x - x) < 0.02 and abs(at_y - y) < 0.03 and kind_of(group[0]) == kind_of(point)]
         near[0].append(point) if near else groups.append((x, y, [point]))
     for _, _, group in groups:
         (hole, ours), methods = kind_of(group[0]), [point.method for point in group]
         bits = ", ".join(method.removeprefix(OURS) for method in methods)
         title = "\n".join(TITLES[method] for method in methods) if not ours else f"tiled, {bits} bits" if FIRST in methods else bits
-        yield Label(scale.at(group[0].wrong.mean), group[0].row.median_ms, title, colour=HOLE if hole else GREEN if ours else INK, bold=ours)
+        yield Label(group[0].wrong.mean, group[0].row.median_ms, title, colour=HOLE if hole else GREEN if ours else INK, bold=ours)
 
 
-def draw_points(axes, points, scale):
+def draw_points(axes, points):
     """Returns the lines that labels keep off."""
-    ours = [(scale.at(point.wrong.mean), point.row.median_ms) for point in points if point.method.startswith(OURS)]
+    ours = [(point.wrong.mean, point.row.median_ms) for point in points if point.method.startswith(OURS)]
     axes.plot(*zip(*ours), color=GREEN, linewidth=1.5, zorder=2) if ours else None
     lines = [ours]
     for point in points:
-        is_ours = point.method.startswith(OURS)
-        colour = HOLE if point.wrong.holes else GREEN if is_ours else PLAIN
-        x, y, ends = scale.at(point.wrong.mean), point.row.median_ms, [scale.at(n) for n in (point.wrong.least, point.wrong.most)]
+        hole, is_ours = kind_of(point)
+        colour = HOLE if hole else GREEN if is_ours else PLAIN
+        x, y, ends = point.wrong.mean, point.row.median_ms, (point.wrong.least, point.wrong.most)
         axes.plot(ends, [y, y], color=colour, **WHISKER, zorder=1.8)
         axes.plot([x, x], point.row.interval_ms, color=colour, **WHISKER, zorder=1.8)
         axes.plot([x], [y], marker="^" if is_ours else "o", color=colour, markersize=7, markeredgecolor="white", markeredgewidth=0.8, zorder=3)
-        lines += [[(x, y)], [(ends[0], y), (ends[1], y)]]
+        lines.append([(end, y) for end in ends])
     return lines
 
 
 def draw_panel(axes, panel, points):
-    scale = ZeroAxis([n for point in points for n in point.wrong[:3]])
-    scale.apply_x(axes)
+    wrong = [n for point in points for n in point.wrong[:3] if n] or [1]
+    least = 10.0 ** math.floor(math.log10(min(wrong)))  # below: the band of 0
+    axes.set_xscale("symlog", linthresh=least, linscale=0.5)
+    axes.set_xlim(-0.4 * least, max(*wrong, 10 * least) * 1.6)
+    axes.xaxis.set_major_formatter(short)
+    axes.axvspan(-least, 0.4 * least, color=BAND, zorder=0, linewidth=0)
     if panel.floats:
-        axes.axvspan(scale.start, scale.at(panel.floats.mean), color=FLOATS, zorder=0.5, linewidth=0)
+        axes.axvspan(-least, panel.floats.mean, color=FLOATS, zorder=0.5, linewidth=0)
     edges = [end for point in points for end in point.row.interval_ms]
-    low, high = min(edges) / 1.35, max(edges) * 1.5
     axes.set_yscale("log")
-    axes.set_ylim(low, high)
-    round_ticks(axes.yaxis, low, high, lambda value, _: f"{value:g}")
+    axes.set_ylim(min(edges) / 1.35, max(edges) * 1.5)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5, 7) if max(edges) < 6 * min(edges) else (1, 2, 5)))
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.yaxis.set_minor_locator(NullLocator())
     kind, _, rest = panel.summary.partition(": ")
     axes.set_title(rest, fontsize=9, color=FAINT, pad=4)
     axes.annotate(kind, (0, 1), xytext=(0, 17), xycoords="axes fraction", textcoords="offset points", fontsize=10.5, fontweight="bold")
-    label_points(axes, list(labels_of(axes, points, scale)), draw_points(axes, points, scale))
+    label_points(axes, list(labels_of(axes, points)), draw_points(axes, points))
 
 
 def choice(accuracy, bench, folder, caption):
@@ -101,5 +105,4 @@ def choice(accuracy, bench, folder, caption):
         axes.set_xlabel("wrong pixels")
     for axes in grid[:, 0]:
         axes.set_ylabel("ms")
-    save(figure, folder, "choice", notes)
-    return "choice"
+    return save(figure, folder, "choice", notes)

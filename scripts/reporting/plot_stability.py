@@ -35,7 +35,7 @@ def held(curve):
 
 
 def verdict(curve):
-    return tidy(curve.starts_to_fail) if held(curve) else "fails"
+    return "" if curve.starts_to_fail is None else tidy(curve.starts_to_fail) if held(curve) else "fails"
 
 
 # Suffixes of coverage sweeps, and where their vertices lie.
@@ -49,10 +49,9 @@ def place_of(sweep):
 def blocks_of(sweeps):
     """[(name, sweeps)]: those of coverage by where their vertices lie."""
     found = {}
-    for family in FAMILIES:
-        for sweep in (sweep for sweep in sweeps if sweep.family == family and sweep.curves):
-            name = f"{family.capitalize()}, {PLACES[place_of(sweep)]}" if family == "coverage" else family.capitalize()
-            found.setdefault(name, []).append(sweep)
+    for sweep in sorted((sweep for sweep in sweeps if sweep.curves), key=lambda sweep: [*FAMILIES].index(sweep.family)):
+        where = f", {PLACES[place_of(sweep)]}" if sweep.family == "coverage" else ""
+        found.setdefault(sweep.family.capitalize() + where, []).append(sweep)
     return list(found.items())
 
 
@@ -100,54 +99,43 @@ def summed_up(blocks):
 
 
 def grid(sweeps, folder, caption):
-    blocks = []
-    for name, of in blocks_of(sweeps):
-        lines, rows = told(of)
-        blocks.append((name, of, [part for line in lines for part in wrapped(line, TEXT).split("\n")], rows))
+    blocks = [(name, of, *told(of)) for name, of in blocks_of(sweeps)]
     if not blocks:
         return None
     fewest = min(curve.trials for sweep in sweeps for curve in sweep.curves)
     subtitle = (f"A bar reaches as far as a method errs in at most 1 of 10⁴ trials against the positions that the caller gave (visibility: the "
                 f"snapped ones), of at least {short(fewest)} at each place. The figure is the first place at which it fails. Each sweep runs from easy "
                 "to hard. Bold names and dark bars: ours.")
-    height = (head_in(subtitle) + 0.3
-              + sum(0.3 + LINE_IN * len(lines) + (HEAD_IN + ROW_IN * len(rows) if rows else 0) + 0.14 for _, _, lines, rows in blocks))
-    cell_in = (WIDTH_IN - NAME_IN - 0.1) / max(len(of) for _, of, _, _ in blocks) - GAP_IN
-    figure = plt.figure(figsize=(WIDTH_IN, height))
-    axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(0, WIDTH_IN), ylim=(height, 0))
+    texts = [wrapped("\n".join(lines), TEXT) for _, _, lines, _ in blocks]
+    heights = [0.44 + LINE_IN * len(text.splitlines()) + (HEAD_IN + ROW_IN * len(rows) if rows else 0) for text, (*_, rows) in zip(texts, blocks)]
+    cell_in = (WIDTH_IN - NAME_IN - 0.1) / max(len(of) for _, of, *_ in blocks) - GAP_IN
+    figure = plt.figure(figsize=(WIDTH_IN, head_in(subtitle) + 0.3 + sum(heights)))
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, WIDTH_IN), ylim=(figure.get_figheight(), 0))
     axes.axis("off")
     headline(figure, summed_up(blocks).capitalize(), subtitle)
     y = head_in(subtitle) + 0.05
-    for name, of, lines, rows in blocks:
+    for (name, of, _, rows), text, height in zip(blocks, texts, heights):
         axes.text(0.08, y + 0.2, finding(name, of), fontsize=10.5, fontweight="bold", va="bottom")
-        y += 0.3
-        for line in lines:
-            axes.text(0.08, y + 0.08, line, fontsize=TEXT, va="center")
-            y += LINE_IN
+        axes.text(0.08, y + 0.31, text, fontsize=TEXT, va="top", linespacing=1.3)
         if rows:
-            draw_rows(axes, of, rows, cell_in, y)
-            y += HEAD_IN + ROW_IN * len(rows)
-        y += 0.14
-    save(figure, folder, "stability-grid", caption)
-    return "stability-grid"
+            draw_rows(axes, of, rows, cell_in, y + height - ROW_IN * len(rows) - 0.14)
+        y += height
+    return save(figure, folder, "stability-grid", caption)
 
 
 def draw_rows(axes, sweeps, rows, cell_in, y):
-    """The sweeps' names, and below them a row of bars for each method."""
-    for i, sweep in enumerate(sweeps):
+    """The sweeps' names, and below them, from y, a row of bars for each method."""
+    middles = [y + ROW_IN * (line + 0.5) for line in range(len(rows))]
+    for method, middle in zip(rows, middles):
+        axes.text(0.08, middle, method.name, fontsize=8.6, va="center", fontweight="bold" if method.ours else "normal")
+    for i, (sweep, curves) in enumerate(zip(sweeps, zip(*rows.values()))):
         x = NAME_IN + i * (cell_in + GAP_IN)
-        axes.text(x, y + 0.2, title_of(sweep), fontsize=8.6, va="bottom")
-        axes.text(x, y + 0.33, scale_text(sweep), fontsize=6.8, color=FAINT, va="bottom")
-    y += HEAD_IN
-    for method, curves in rows.items():
-        axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center", fontweight="bold" if method.ours else "normal")
-        for i, curve in enumerate(curves):
-            x, width = NAME_IN + i * (cell_in + GAP_IN), cell_in * held(curve)
-            for size, colour in ((cell_in, EMPTY), (width, OURS if method.ours else HELD)):
-                axes.add_patch(plt.Rectangle((x, y + 0.02), size, ROW_IN - 0.04, color=colour, linewidth=0))
-            if curve.starts_to_fail is not None:
-                inside = held(curve) > 0.55
-                axes.text(x + width + (-0.03 if inside else 0.03), y + ROW_IN / 2, verdict(curve), fontsize=7.5, va="center",
-                          ha="right" if inside else "left", color="white" if inside and method.ours else INK)
-        y += ROW_IN
+        axes.text(x, y - 0.16, title_of(sweep), fontsize=8.6, va="bottom")
+        axes.text(x, y - 0.03, scale_text(sweep), fontsize=6.8, color=FAINT, va="bottom")
+        axes.barh(middles, cell_in, ROW_IN - 0.04, x, color=EMPTY)
+        bars = axes.barh(middles, [cell_in * held(curve) for curve in curves], ROW_IN - 0.04, x,
+                         color=[OURS if curve.method.ours else HELD for curve in curves])
+        for bar, curve in zip(bars, curves):
+            inside = held(curve) > 0.55
+            axes.text(bar.get_x() + bar.get_width() + (-0.03 if inside else 0.03), bar.get_y() + bar.get_height() / 2, verdict(curve), fontsize=7.5,
+                      va="center", ha="right" if inside else "left", color="white" if inside and curve.method.ours else INK)

@@ -1,6 +1,4 @@
 """The common look of all charts: light, colour-blind safe, one meaning for a colour, the same bytes for the same data."""
-import colorsys
-import math
 import re
 import textwrap
 from pathlib import Path
@@ -9,18 +7,14 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.colors import to_hex, to_rgb  # noqa: E402
-from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
-
-from tables import short  # noqa: E402
 
 # Okabe and Ito, "Color Universal Design", 2008.
-BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
+BLUE, ORANGE, GREEN = "#0072B2", "#E69F00", "#009E73"
 INK, FAINT = "#24292f", "#6e7781"
 BAND = "#f0f2f4"  # behind a special part of an axis
-
-BACKENDS = {"scanline": (BLUE, "o"), "naive": (ORANGE, "s"), "tiled": (GREEN, "^")}
-ADDED = (("#7f5539", "D"), ("#8a8f00", "v"), ("#5c4d9a", "P"), ("#6b705c", "X"))  # for backends that a user adds
+WIDTH_IN = 10.0  # of every chart, unless it says otherwise
+# An interval, as a light bar.
+WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
 
 plt.rcParams.update({
     "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
@@ -33,38 +27,8 @@ plt.rcParams.update({
 })
 
 
-WIDTH_IN = 10.0  # of every chart
-
-
-def dark(colour):
-    """Dark enough to read on white."""
-    hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(colour))
-    return to_hex(colorsys.hls_to_rgb(hue, min(light, 0.30), saturation))
-
-
-class Look:
-    """Colour and marker of each backend."""
-
-    def __init__(self, backends):
-        self.backends = backends
-        added = [backend for backend in backends if backend not in BACKENDS]
-        self.looks = {backend: BACKENDS.get(backend) or ADDED[added.index(backend) % len(ADDED)] for backend in backends}
-
-    def colour(self, backend):
-        return self.looks[backend][0]
-
-    def marker(self, backend):
-        return self.looks[backend][1]
-
-    def legend(self, figure, y, extra=()):
-        handles = [plt.Line2D([], [], color=self.colour(b), marker=self.marker(b), linestyle="", markersize=7, label=b)
-                   for b in self.backends]
-        figure.legend(handles=[*handles, *extra], loc="upper left", bbox_to_anchor=(0.005, y), ncol=6, frameon=False,
-                      handletextpad=0.4, columnspacing=1.6, fontsize=10.5)
-
-
 def wrapped(text, type_size, width_in=WIDTH_IN):
-    return textwrap.fill(text, int(128 * width_in / type_size))
+    return "\n".join(textwrap.fill(line, int(128 * width_in / type_size)) for line in text.split("\n"))
 
 
 def head_in(subtitle, width_in=WIDTH_IN):
@@ -82,61 +46,9 @@ def headline(figure, title, subtitle):
     return 1 - head_in(subtitle, width_in) / height_in
 
 
-# An interval, as a light bar.
-WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
-
-
-def round_ticks(axis, low, high, text, ratios=False):
-    """Few round numbers on a log axis whose limits are set already; of `ratios` below 1 the reciprocal is round."""
-    steps = (1, 1.5, 2, 3, 5, 7) if high / low < 12 else (1, 2, 5)
-    ticks = {step * 10.0 ** k for k in range(-4, 5) for step in steps}
-    if ratios:
-        ticks = {end for tick in ticks if tick >= 1 for end in (tick, 1 / tick)}
-    axis.set_ticks(sorted(tick for tick in ticks if low <= tick <= high))
-    axis.set_ticks([], minor=True)
-    axis.set_major_formatter(text)
-
-
-def log_axis(axis):
-    axis.set_major_formatter(FuncFormatter(short))
-    axis.set_minor_formatter(NullFormatter())
-
-
-class ZeroAxis:
-    """Positions, in decades, of values ≥ 0 on a log axis that begins with a band for 0."""
-
-    def __init__(self, values, band=0.18):
-        """`band`: the width of the band, as a part of the log axis."""
-        seen = [math.log10(v) for v in values if v > 0] or [0.0, 1.0]
-        self.low, self.high = math.floor(min(seen)), max(seen)
-        self.high = max(self.high, self.low + 1)
-        decades = self.high - self.low
-        self.end = self.low - 0.035 * decades  # of the band
-        self.start = self.end - band * decades
-        self.zero = (self.start + self.end) / 2
-        self.limit = self.high + 0.04 * decades
-
-    def at(self, value):
-        return math.log10(value) if value > 0 else self.zero
-
-    def ticks(self, zero):
-        step = max(1, math.ceil((self.high - self.low) / 8))
-        places = list(range(self.low, math.floor(self.high + 1e-9) + 1, step))
-        return [self.zero, *places], [zero, *(short(10.0 ** k) for k in places)]
-
-    def apply_x(self, axes, zero="0"):
-        axes.set_xticks(*self.ticks(zero))
-        axes.set_xlim(self.start, self.limit)
-        axes.axvspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
-
-
-def caption_lines(caption, width_in=WIDTH_IN):
-    return "\n".join(wrapped(line, 7.5, width_in) for line in caption.split("\n"))
-
-
 def foot_in(caption, width_in=WIDTH_IN):
     """The height of an axis' label and a caption, in inches."""
-    return 0.75 + 0.13 * caption_lines(caption, width_in).count("\n")
+    return 0.75 + 0.13 * wrapped(caption, 7.5, width_in).count("\n")
 
 
 def smaller(svg):
@@ -146,10 +58,12 @@ def smaller(svg):
 
 
 def save(figure, folder, name, caption):
-    lines = caption_lines(caption, figure.get_figwidth())
+    """Returns the name."""
+    lines = wrapped(caption, 7.5, figure.get_figwidth())
     figure.text(0.012, 0.07 / figure.get_figheight(), lines, fontsize=7.5, color=FAINT, va="bottom")
     partial = Path(folder) / f".{name}.partial.svg"
     figure.savefig(partial, dpi=130, metadata={"Date": None})
     partial.write_text(smaller(partial.read_text(encoding="utf-8")), encoding="utf-8")
     partial.replace(Path(folder) / f"{name}.svg")
     plt.close(figure)
+    return name

@@ -6,7 +6,7 @@ from python_drawers import DRAWERS, Drawer, Mesh, View
 
 OURS = "edgewise"
 THREADS = (1, 2)
-BACKGROUND = 0xFFFFFF
+BACKGROUND = 0
 FOV_Y = 0.8  # radians
 CALLS = 3  # whose median is the time of a round
 
@@ -38,7 +38,7 @@ def read_obj(path):
         mesh = edgewise.Scene.read_obj(path).meshes()[0]
     except OSError as error:
         raise BadInput(error) from None
-    if len(mesh.triangles) >= BACKGROUND:
+    if len(mesh.triangles) >= 1 << 24:
         raise BadInput(f"{path}: too many triangles")
     return Mesh(mesh.positions.astype(np.float32), mesh.triangles)
 
@@ -79,12 +79,13 @@ def compared(ours, theirs):
 
 def timed(drawers, mesh, view, rounds):
     """The milliseconds of each round: {drawer's name: {threads: {job: [...]}}}. Every other round goes the other way."""
+    requests = {"load": (mesh, view, 1), "draw": (None, view, CALLS), "redraw": (None, view, CALLS, True)}
     found = {}
     for i in range(rounds):
         for drawer in drawers[::-1] if i % 2 else drawers:
-            times = found.setdefault(drawer.name, {}).setdefault(drawer.threads, {"load": [], "draw": []})
-            times["load"].append(round(drawer.ms(view, 1, mesh), 4))
-            times["draw"].append(round(drawer.ms(view, CALLS), 4))
+            times = found.setdefault(drawer.name, {}).setdefault(drawer.threads, {job: [] for job in requests})
+            for job, request in requests.items():
+                times[job].append(round(drawer.drawn(*request), 4))
     return found
 
 
@@ -98,7 +99,7 @@ def comparison(meshes, sizes, rounds, tell):
     for name, mesh in meshes.items():
         for size in sizes:
             view = view_of(mesh, size)
-            drawn = {(drawer.name, drawer.threads): drawer.picture(mesh, view) for drawer in drawers}
+            drawn = {(drawer.name, drawer.threads): drawer.drawn(mesh, view) for drawer in drawers}
             ours = drawn[OURS, THREADS[0]]
             if any((of[0] != drawn[name, THREADS[0]][0]).any() for (name, _), of in drawn.items()):
                 raise BadInput(f"{name}: the number of threads changes the picture")

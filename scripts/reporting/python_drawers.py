@@ -1,5 +1,6 @@
 """Python packages that draw the ids and depths of the triangles that a camera sees, each in a process of its own. A drawer's load()
-takes a mesh, draw() returns two arrays. Ids count in the lowest 24 bits, where background is all ones; row 0 is the top.
+takes a mesh, draw() returns two arrays: those of its last call, self.arrays, or new ones if that is None. Ids count from 1 in the
+lowest 24 bits, where background is 0; row 0 is the top.
 
 Every drawer gets as many cores as it has threads, and the fastest settings that we found.
 """
@@ -37,17 +38,16 @@ class View:
 class Edgewise:
     def __init__(self, threads):
         import edgewise
-        self.edgewise, self.threads, self.version = edgewise, threads, "Edgewise"
+        self.edgewise, self.threads, self.version, self.depth01 = edgewise, threads, "Edgewise", edgewise.depth01
 
     def load(self, mesh):
         self.scene = self.edgewise.Scene(mesh.positions, mesh.triangles)
 
     def draw(self, view):
         projection = self.edgewise.intrinsics(view.k, *view.size, view.near, view.far, first_centre=0.5)
-        return self.scene.draw(self.edgewise.Camera(view.world_to_camera, projection), view.size, ids=True, threads=self.threads)
-
-    def distance(self, view, depth):
-        return view.distance(self.edgewise.depth01(depth))
+        self.arrays = self.scene.draw(self.edgewise.Camera(view.world_to_camera, projection), view.size, ids=True, first_id=1,
+                                      background=0, threads=self.threads, onto=self.arrays, clear=True)
+        return self.arrays
 
 
 def use_llvmpipe(threads):
@@ -65,6 +65,7 @@ def llvmpipe_of(renderer, version):
 class Vtk:
     """Each triangle's colour is its id, without light, smoothing or multisampling; depth is the z-buffer. Debian's VTK draws through
     an X server only, here Xvfb, and Mesa's llvmpipe draws in this process."""
+    depth01 = np.float64
 
     def __init__(self, threads):
         use_llvmpipe(threads)
@@ -78,7 +79,6 @@ class Vtk:
         actor.GetProperty().LightingOff()
         self.camera, renderer = vtkRenderingCore.vtkCamera(), vtkRenderingCore.vtkRenderer()
         renderer.SetActiveCamera(self.camera)
-        renderer.SetBackground(1, 1, 1)
         renderer.AddActor(actor)
         self.window = vtkRenderingCore.vtkRenderWindow()
         self.window.SetOffScreenRendering(True)
@@ -92,7 +92,7 @@ class Vtk:
 
     def load(self, mesh):
         count = len(mesh.triangles)
-        colours = np.arange(count, dtype="<u4").view(np.uint8).reshape(count, 4)[:, :3]
+        colours = np.arange(1, count + 1, dtype="<u4").view(np.uint8).reshape(count, 4)[:, :3]
         # VTK keeps no reference to arrays that it does not copy.
         self.kept = mesh.positions, mesh.triangles.astype(np.int64), np.ascontiguousarray(colours)
         points, cells, mesh_of_vtk = self.core.vtkPoints(), self.data.vtkCellArray(), self.data.vtkPolyData()
@@ -114,25 +114,26 @@ class Vtk:
         self.camera.SetClippingRange(view.near, view.far)
         self.window.SetSize(width, height)
         self.window.Render()
-        colours, depth = self.core.vtkUnsignedCharArray(), self.core.vtkFloatArray()
+        colours, depth = self.arrays = self.arrays or (self.core.vtkUnsignedCharArray(), self.core.vtkFloatArray())
         self.window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, colours)
         self.window.GetZbufferData(0, 0, width - 1, height - 1, depth)
         ids = self.numpy.vtk_to_numpy(colours).view("<u4")
         return ids.reshape(height, width)[::-1], self.numpy.vtk_to_numpy(depth).reshape(height, width)[::-1]
 
-    def distance(self, view, depth):
-        return view.distance(depth.astype(np.float64))
-
 
 class ModernGl:
-    """The least that OpenGL does: one draw call, whose shader writes the triangle's number as a colour, and a read of both planes."""
+    """The least that OpenGL does: one draw call, whose shader writes the triangle's number, and a read of both planes.
+    Each triangle's last corner is a vertex of its own, which is faster than gl_PrimitiveID."""
+    depth01 = np.float64
     VERTEX = """#version 330
         uniform mat4 to_clip;
         in vec3 position;
-        void main() { gl_Position = to_clip * vec4(position, 1.0); }"""
+        flat out uint number;
+        void main() { number = uint(gl_VertexID + 1); gl_Position = to_clip * vec4(position, 1.0); }"""
     FRAGMENT = """#version 330
-        out vec4 colour;
-        void main() { colour = vec4(gl_PrimitiveID & 255, gl_PrimitiveID >> 8 & 255, gl_PrimitiveID >> 16, 255) / 255.0; }"""
+        flat in uint number;
+        out uint id;
+        void main() { id = number; }"""
 
     def __init__(self, threads):
         use_llvmpipe(threads)
@@ -146,27 +147,27 @@ class ModernGl:
                         + llvmpipe_of(self.context.info["GL_RENDERER"], self.context.info["GL_VERSION"]))
 
     def load(self, mesh):
-        self.mesh = self.context.vertex_array(self.program, [(self.context.buffer(mesh.positions), "3f", "position")],
-                                              self.context.buffer(mesh.triangles))
+        count = len(mesh.triangles)
+        positions = np.concatenate([mesh.positions[mesh.triangles[:, 2]], mesh.positions])
+        triangles = np.column_stack([mesh.triangles[:, :2] + count, np.arange(count, dtype=np.uint32)])
+        self.mesh = self.context.vertex_array(self.program, [(self.context.buffer(positions), "3f", "position")],
+                                              self.context.buffer(triangles))
 
     def draw(self, view):
         width, height = view.size
         if self.frame is None or self.frame.size != view.size:
-            self.frame = self.context.framebuffer(self.context.texture(view.size, 4), self.context.depth_texture(view.size))
+            self.frame = self.context.framebuffer(self.context.texture(view.size, 1, dtype="u4"), self.context.depth_texture(view.size))
             self.frame.use()
         span = view.far - view.near
         to_clip = np.array([[2 * view.k[0, 0] / width, 0, 0, 0], [0, -2 * view.k[1, 1] / height, 0, 0],
                             [0, 0, (view.far + view.near) / span, -2 * view.far * view.near / span], [0, 0, 1, 0]]) @ view.world_to_camera
         self.program["to_clip"].write(to_clip.T.astype(np.float32).tobytes())
-        self.frame.clear(1, 1, 1, 1)
+        self.frame.clear()
         self.mesh.render()
-        ids, depth = np.empty((height, width), "<u4"), np.empty((height, width), np.float32)
-        self.frame.read_into(ids, components=4)
+        ids, depth = self.arrays = self.arrays or (np.empty((height, width), "<u4"), np.empty((height, width), np.float32))
+        self.frame.read_into(ids, components=1, dtype="u4")
         self.frame.read_into(depth, components=1, attachment=-1, dtype="f4")
         return ids[::-1], depth[::-1]
-
-    def distance(self, view, depth):
-        return view.distance(depth.astype(np.float64))
 
 
 DRAWERS = {"edgewise": Edgewise, "vtk": Vtk, "moderngl": ModernGl}
@@ -189,24 +190,27 @@ def serve(pipe, name, threads):
         drawer = DRAWERS[name](threads)
         pipe.send(drawer.version)
         while True:
-            mesh, view, calls = pipe.recv()
-            pipe.send(drawn(drawer, mesh, view, calls))
+            pipe.send(drawn(drawer, *pipe.recv()))
     except EOFError:
         pass
     except Exception as error:  # whatever a package throws
         pipe.send(error)
 
 
-def drawn(drawer, mesh, view, calls):
-    """The picture's ids and distances, or, of so many calls, the median of their milliseconds. With a mesh, it is loaded anew."""
-    times = []
+def drawn(drawer, mesh, view, calls=0, reuse=False):
+    """The picture's ids and distances, or, of so many calls, the median of their milliseconds. With a mesh, it is loaded anew.
+    reuse: draws into the arrays of the last call."""
+    times, kept = [], []  # all arrays are kept, since the allocator would hand out those that were freed as new ones
     for _ in range(calls or 1):
         start = time.perf_counter()
         if mesh is not None:
             drawer.load(mesh)
-        ids, depth = drawer.draw(view)
+        if not reuse:
+            drawer.arrays = None
+        kept.append(drawer.draw(view))
         times.append(1e3 * (time.perf_counter() - start))
-    return median(times) if calls else (ids & 0xFFFFFF, drawer.distance(view, depth))
+    ids, depth = kept[-1]
+    return median(times) if calls else (ids & 0xFFFFFF, view.distance(drawer.depth01(depth)))
 
 
 class Drawer:
@@ -229,10 +233,6 @@ class Drawer:
             raise RuntimeError(f"{self.name}: {said}") from None
         return said
 
-    def picture(self, mesh, view):
-        self.pipe.send((mesh, view, 0))
-        return self.answer()
-
-    def ms(self, view, calls, mesh=None):
-        self.pipe.send((mesh, view, calls))
+    def drawn(self, *request):
+        self.pipe.send(request)
         return self.answer()

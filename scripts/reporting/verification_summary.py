@@ -5,8 +5,6 @@ from bench_rows import records, source_of
 from program import Parser, main_guard, read_json
 from tables import enumerated, kernels, markdown, plain, short
 
-HEADER = ["method", "extent", "found"]
-
 
 def none_or(count, what, plural=None):
     """"no difference", or their number in bold."""
@@ -19,11 +17,6 @@ def how_many(count, what, plural=None):
 
 def all_of(done, all_there, what):
     return f"all {what}" if done == all_there else f"**{done:,} of {all_there:,} {what}**"
-
-
-def ran(totals):
-    skipped = f", {totals['skipped']:,} of them skipped" if totals["skipped"] else ""
-    return how_many(totals["tests"], "test") + skipped
 
 
 def prove_lines(data):
@@ -39,8 +32,9 @@ def mutate_lines(data):
 
 
 def test_lines(data):
-    cases, comparisons = (short(data["all"][key]) for key in ("cases", "comparisons"))
-    yield ["Tests at full size", f"{ran(data['all'])}; {cases} random or exhaustive cases, {comparisons} comparisons",
+    tests, skipped, cases, comparisons = (data["all"][key] for key in ("tests", "skipped", "cases", "comparisons"))
+    yield ["Tests at full size", f"{how_many(tests, 'test')}{f', {skipped:,} of them skipped' if skipped else ''}; "
+           f"{short(cases)} random or exhaustive cases, {short(comparisons)} comparisons",
            none_or(data["all"]["failed"], "failure")]
     if runs := data["sanitized"]:
         yield [f"Again with the sanitizers ({', '.join(run['name'] for run in runs)})",
@@ -87,7 +81,7 @@ def verification_table(folder):
             data = read_json(path)
             where = f" ({source_of(path, data)})" if path.parent != folder else ""
             lines += [[method, extent + where, found] for method, extent, found in lines_of(data)]
-    return HEADER, lines
+    return ["method", "extent", "found"], lines
 
 
 def verification_markdown(folder):

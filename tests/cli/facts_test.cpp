@@ -39,15 +39,22 @@ json entry(const json& list, const json& like, std::initializer_list<const char*
   return {};
 }
 
+// scripts/publish leaves out what no report reads. All that it keeps must be there, in its place.
+void expect_kept(const json& made, const json& published) {
+  const json all = made.flatten(), kept = published.flatten();
+  for (const auto& [place, value] : kept.items())
+    ASSERT_EQ(all.value(place, json()).dump(), value.dump()) << place;
+}
+
 TEST(Facts, OfSmallScenesAreThoseOfTheResults) {
   std::string arguments = "accuracy --json -";
   for (const lab::LabScene& scene : lab::lab_scenes(false))
     if (scene.smallest) arguments += " " + scene.name;
   const json all = json::parse(facts(arguments)), expected = committed("accuracy");
-  EXPECT_EQ(all.at("methods").dump(), expected.at("methods").dump());
+  expect_kept(all.at("methods"), expected.at("methods"));
   for (const auto& [key, value] : all.items()) EXPECT_TRUE(expected.contains(key)) << key;
   for (const json& scene : all.at("scenes"))
-    EXPECT_EQ(scene.dump(), entry(expected.at("scenes"), scene, {"family", "name"}).dump());
+    expect_kept(scene, entry(expected.at("scenes"), scene, {"family", "name"}));
 }
 
 TEST(Facts, OfSweepsAreThoseOfTheResults) {
@@ -59,7 +66,7 @@ TEST(Facts, OfSweepsAreThoseOfTheResults) {
 TEST(Facts, OfNeedsAndPortablePixelsAreThoseOfTheResults) {
   const json needs = json::parse(facts("needs cubes --frames 12 --size 640x360 --tolerance 230 --json")),
              portable = json::parse(facts("portable cube --json"));
-  EXPECT_EQ(needs.dump(), entry(committed("needs"), needs, {"scene", "width", "frames"}).dump());
+  expect_kept(needs, entry(committed("needs"), needs, {"scene", "width", "frames"}));
   EXPECT_EQ(portable.dump(),
             entry(committed("portable"), portable, {"scene", "width", "subpixel_bits"}).dump());
 }

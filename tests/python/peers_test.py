@@ -14,7 +14,7 @@ SIZE = (80, 60)
 
 
 def picture_of(mesh):
-    return drawn(Edgewise(1), mesh, view_of(mesh, SIZE), 0)
+    return drawn(Edgewise(1), mesh, view_of(mesh, SIZE))
 
 
 def test_each_pixel_shows_a_triangle_near_it_at_its_distance():
@@ -22,7 +22,7 @@ def test_each_pixel_shows_a_triangle_near_it_at_its_distance():
     view, (ids, distances) = view_of(mesh, SIZE), picture_of(mesh)
     shown = ids != BACKGROUND
     assert shown.sum() > 500
-    middles = mesh.positions[mesh.triangles[ids[shown]]].mean(1) @ view.world_to_camera[:3, :3].T + view.world_to_camera[:3, 3]
+    middles = mesh.positions[mesh.triangles[ids[shown] - 1]].mean(1) @ view.world_to_camera[:3, :3].T + view.world_to_camera[:3, 3]
     seen = middles @ view.k.T
     assert (abs(seen[:, :2] / seen[:, 2:] - np.argwhere(shown)[:, ::-1] - 0.5) < 11).all()
     nearest = np.linalg.norm(view.world_to_camera[:3, 3]) - 1
@@ -37,7 +37,7 @@ def test_differences_are_counted_with_holes():
     ids[30, 40] = BACKGROUND  # inside
     left = np.argmax(ids[30] != BACKGROUND)
     ids[30, left] = BACKGROUND  # at the edge, so no hole
-    ids[30, left - 2] = 0  # outside
+    ids[30, left - 2] = 1  # outside
     assert compared(ours, (ids, 1.5 * distances)) == {"differ": 3, "holes": 1, "distance_p99": pytest.approx(0.5)}
 
 

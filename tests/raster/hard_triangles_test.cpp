@@ -39,7 +39,28 @@ EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t
           static_cast<std::int32_t>(dx)};
 }
 
-// Calls check(triangle, side of the image, description).
+// Calls check(triangle, side of the image, description) for edges that are two sub-units high. If its samples
+// are 2^12 px per row apart or more, the spans at an edge are found by division.
+template <class G, typename Check>
+void for_each_flat_edge_next_to_a_sample(Check&& check) {
+  constexpr int kSide = 70;
+  constexpr std::int32_t kSample = G::sample(kSide / 2), kDown = 4 * G::kSub;
+  for (const std::int32_t length : {1 << 12, 1 << 13, 3 << 14, G::kGuardSub})
+    for (const std::int32_t rest : {-1, 0, 1})
+      for (const std::int32_t up : {-1, 1})
+        for (const std::int32_t down : {-kDown, kDown}) {
+          const std::int32_t width = length + (rest & 1), x = kSample - (width + rest) / 2;
+          check(testing::on_grid<G>({{x, x + width, kSample},
+                                     {kSample - up, kSample + up, kSample + down},
+                                     {5000, 6000, 7000},
+                                     1}),
+                kSide,
+                std::to_string(G::kSubBits) + " bits, flat, " + std::to_string(length) + ", " +
+                    std::to_string(rest));
+        }
+}
+
+// Calls check as above.
 template <class G, typename Check>
 void for_each_edge_next_to_a_sample(Check&& check) {
   struct Case {
@@ -79,6 +100,7 @@ void for_each_edge_next_to_a_sample(Check&& check) {
                   std::to_string(G::kSubBits) + " bits, " + std::to_string(dy) + ", " + std::to_string(rest));
             }
           }
+  for_each_flat_edge_next_to_a_sample<G>(check);
 }
 
 TEST_P(EveryBackend, ResolvesEdgesNextToASample) {

@@ -62,17 +62,12 @@ class SolverTest(ClaimsTest):
         self.assertEqual((written["proven"], written["premises_hold"], written["refuted"]), (1, 0, 1))
         self.assertFalse(written["list"][0]["premises_hold"])
 
-    def test_a_claim_that_asserts_nothing_is_refused(self):
-        self.claim(CLAIM[:CLAIM.index("(assert")] + WEAKENED)
-        result = self.run_prove()
-        self.assertEqual((result.returncode, result.stderr),
-                         (2, "prove: numbers.smt2: claim even asserts nothing\n"))
-
     def test_a_mistake_in_a_file_is_told(self):
-        self.claim(CLAIM.replace("mod", "mood") + WEAKENED)
-        result = self.run_prove()
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("numbers.smt2: claim even: the solver says (error", result.stderr)
+        for claim, told in ((CLAIM[:CLAIM.index("(assert")], "claim even asserts nothing\n"), (CLAIM.replace("mod", "mood"), "claim even: the solver says (error")):
+            self.claim(claim + WEAKENED)
+            result = self.run_prove()
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"prove: numbers.smt2: {told}", result.stderr)
 
 
 class ProveTest(ClaimsTest):
@@ -85,24 +80,19 @@ class ProveTest(ClaimsTest):
         self.assertIn("z3 is not installed", result.stderr)
 
     def test_a_claim_without_a_weakened_form_is_refused(self):
-        self.claim(CLAIM)
-        with self.assertRaisesRegex(BadInput, "claim even has no deliberately false variant"):
-            read_sections(self.folder)
-        self.claim(WEAKENED)
-        with self.assertRaisesRegex(BadInput, "even has a false variant, but no claim"):
-            read_sections(self.folder)
-        self.claim(CLAIM + CLAIM + WEAKENED)
-        with self.assertRaisesRegex(BadInput, "even occurs twice"):
-            read_sections(self.folder)
+        for claims, told in ((CLAIM, "claim even has no deliberately false variant"), (WEAKENED, "even has a false variant, but no claim"),
+                             (CLAIM + CLAIM + WEAKENED, "even occurs twice")):
+            self.claim(claims)
+            with self.assertRaisesRegex(BadInput, told):
+                read_sections(self.folder)
 
     def test_a_constant_that_drifts_from_its_source_is_refused(self):
         self.assertEqual(check_constants(self.folder, ROOT), 1)
-        self.claim(CLAIM + WEAKENED, DEFINITIONS.replace("Int 15", "Int 14"))
-        with self.assertRaisesRegex(BadInput, "kFineBits is 14 in the proofs, but kFineBits of src/edgewise/contract.h is 15"):
-            check_constants(self.folder, ROOT)
-        self.claim(CLAIM + WEAKENED, DEFINITIONS.replace("contract.h", "gone.h"))
-        with self.assertRaisesRegex(BadInput, "not there"):
-            check_constants(self.folder, ROOT)
+        for old, new, told in (("Int 15", "Int 14", "kFineBits is 14 in the proofs, but kFineBits of src/edgewise/contract.h is 15"),
+                               ("contract.h", "gone.h", "not there")):
+            self.claim(CLAIM + WEAKENED, DEFINITIONS.replace(old, new))
+            with self.assertRaisesRegex(BadInput, told):
+                check_constants(self.folder, ROOT)
 
     def test_constants_are_computed_from_expressions(self):
         source = "constexpr int a = 3;\ninline constexpr std::int64_t b = std::int64_t{1} << a;\nconstexpr int c = (b - 1) / 2;"

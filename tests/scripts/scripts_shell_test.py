@@ -7,8 +7,7 @@ import shutil
 import sys
 import unittest
 
-import scripts_test
-from support import SCRIPTS, FolderTest, run
+from support import RESULTS, SCRIPTS, FolderTest, run
 
 APT_OFFLINE = """#!/bin/bash
 echo "W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  Temporary failure resolving 'deb.debian.org'" >&2
@@ -64,24 +63,26 @@ GTEST_CASES = """<testsuites tests="2"><testsuite name="L">
 z3 is not installed]]></skipped></testcase></testsuite></testsuites>"""
 
 
-# Stands for all programs: writes the files that its options name, and what scripts/run reads.
+# Stands for all programs: writes the files that its options name, with what the committed results hold.
 PROGRAM = f"""#!{sys.executable}
-import json, os, sys
+import os, shutil, sys
 from pathlib import Path
 name, command, *options = Path(sys.argv[0]).name, *sys.argv[1:], ""
+results, facts = Path("{RESULTS}"), Path("{RESULTS.parent}/facts")
 with open(os.environ["CALLS"], "a") as calls:
     print(name, command, *options[:1], file=calls)
-written = {{"verify": %s, "accuracy": %s}}
+written = {{"verify": results / "verify.json", "accuracy": facts / "accuracy.json"}}
 for option, value in zip(options, options[1:]):
     if option in ("--json", "-o") and value.startswith("build") and not Path(value).is_dir():
-        Path(value).write_text(json.dumps(written.get(command)))
+        shutil.copy(written.get(command, facts / "stability.json"), value)
     if option == "--pictures":
         Path(value).mkdir()
 for option in sys.argv:
     if option.startswith("--benchmark_out="):
-        Path(option.partition("=")[2]).write_text(%r)
-print({{"list": '{{"scenes": [{{"name": "cube"}}]}}', "demo": '[{{"name": "turn"}}]', "portable": %r,
-       "machine": "mine" if "--name" in options else %r}}.get(command, "{{}}"))
+        shutil.copy(results / "bench.json", option.partition("=")[2])
+one = '{{"scene": "cube", "subpixel_bits": 8, "pixels": 9, "unstable": 1}}'
+print({{"list": '{{"scenes": [{{"name": "cube"}}]}}', "demo": '[{{"name": "turn"}}]', "portable": one,
+       "machine": "mine" if "--name" in options else (results / "machine.json").read_text()}}.get(command, "{{}}"))
 """
 
 
@@ -131,27 +132,17 @@ class ShellTest(FolderTest):
         self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
         self.assert_usage_error(self.run_script("compare", "a"), "no such file, and no revision")
 
-    def test_no_install_holds_wherever_it_stands(self):
-        self.tool("dpkg-query", DPKG_QUERY)
-        for arguments in (("-R", "x", "--no-install"), ("--no-install", "-R", "x")):
-            result = self.run_script("test", *arguments)
+    def test_missing_packages_are_named_before_anything_runs(self):
+        for missing, run_it in (("ninja-build", lambda: self.run_script("test", "-R", "x", "--no-install")),
+                                ("ninja-build", lambda: self.run_script("test", "--no-install", "-R", "x")),
+                                ("chromium-driver", lambda: self.run_script("test", "--full", "--no-install")),
+                                ("libegl-dev", lambda: self.library("set_up list; set_up list peers"))):
+            self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", missing))
+            result = run_it()
             self.assertEqual(result.returncode, 2)
-            self.assertIn("Missing packages: ninja-build\n", result.stderr)
+            self.assertIn(f"Missing packages: {missing}\n", result.stderr)
             self.assertFalse(self.calls.exists(), "something ran")
-
-    def test_missing_packages_of_a_further_list_are_named(self):
-        self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", "libegl-dev"))
         self.assertEqual(self.library("set_up list").returncode, 0)
-        result = self.library("set_up list peers")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("Missing packages: libegl-dev\n", result.stderr)
-
-    def test_the_full_test_first_looks_for_all_packages(self):
-        self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", "chromium-driver"))
-        result = self.run_script("test", "--full", "--no-install")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("Missing packages: chromium-driver\n", result.stderr)
-        self.assertFalse(self.calls.exists(), "something ran")
 
     def test_a_page_that_would_be_another_fails_its_check(self):
         self.file("root/src/web/page.html", "<@PROGRAM@>\n")
@@ -252,9 +243,7 @@ for a; do [[ $a != Dir::Cache=* ]] || cp {self.folder}/a.deb "${{a#*=}}/archives
 
     def ran(self, *arguments):
         """The lines of scripts/run with programs that do nothing, and the files that it left outside build/ or changed there."""
-        bench = scripts_test.bench()
-        bench["context"]["suite"] = "full" if "--full" in arguments else "quick"
-        program = self.file("program", PROGRAM % (scripts_test.VERIFY, scripts_test.accuracy(), *map(json.dumps, (bench, scripts_test.portable()[0], scripts_test.MACHINE))))
+        program = self.file("program", PROGRAM)
         self.tool("cmake", f"""#!/bin/bash
 echo "cmake $*" >>"$CALLS"
 [[ $1 == --build ]] || exit 0
@@ -295,14 +284,13 @@ folder.mkdir()
         self.assertNotIn("--main", (results / "mine/charts/choice.svg").read_text())
         self.assertLessEqual({"accuracy", "demos", "needs", "portable", "stability"}, {path.stem for path in (results / "facts").glob("*.json")})
 
-    def run_tests(self, cases, *arguments, **environment):
-        result = self.run_script("test", *arguments, CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % cases)),
-                                 **environment)
+    def run_tests(self, **environment):
+        result = self.run_script("test", CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % "")), **environment)
         return result, result.stdout.splitlines()
 
     def test_the_verdict_counts_all_runs_and_tells_why_tests_are_skipped(self):
         shards = len(os.sched_getaffinity(0))
-        result, lines = self.run_tests("")
+        result, lines = self.run_tests()
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         # Of three runs of ctest and, of two programs, one shard per core.
         self.assertEqual(lines[-1], f"{3 + 2 * shards} passed, 0 failed, {6 + 2 * shards} skipped")
@@ -312,29 +300,22 @@ folder.mkdir()
 
     def test_a_wrong_hash_on_another_processor_fails(self):
         self.file("root/build/edgewise_hashes", '#!/bin/bash\nshift\necho "0 0: here, $*"\n').chmod(0o755)
-        result, lines = self.run_tests("", QEMU_STATUS="1")
+        result, lines = self.run_tests(QEMU_STATUS="1")
         self.assertEqual(result.returncode, 1)
         self.assertIn("\n< 0 0: here, --dump cube/3\n---\n> 0 0: there\n", result.stdout)
         self.assertEqual(lines[-2], "Failed: the run ended without results; see above (aarch64)")
 
-    def test_selected_tests_run_once(self):
-        result, lines = self.run_tests("", "-R", "A", "-j4")
-        self.assertEqual((result.returncode, lines[-1]), (0, "1 passed, 0 failed, 2 skipped"))
-        self.assertIn(" -R A -j4", self.calls.read_text())
-        self.assertIn("Testing -R A", result.stdout)
-
-    def test_failures_are_named_and_keep_the_exit_status(self):
-        result, lines = self.run_tests(FAILED_CASES, "-R", "A", CTEST_STATUS="8")
-        self.assertEqual(result.returncode, 8)
-        self.assertEqual(lines[-3:], ["Failed: B.Wrong (tests)", "Failed: gone (tests)", "1 passed, 2 failed, 2 skipped"])
-
-    def test_a_run_without_results_counts_as_failed(self):
-        result = self.run_script("test", "-R", "A", CTEST_STATUS="8")
-        self.assertEqual(result.returncode, 8)
-        self.assertEqual(result.stdout.splitlines()[-2:], ["Failed: the run ended without results; see above (tests)",
-                                                           "0 passed, 1 failed, 0 skipped"])
-        result, lines = self.run_tests("", "-R", "A", CTEST_STATUS="3")
-        self.assertEqual((result.returncode, lines[-1]), (3, "1 passed, 1 failed, 2 skipped"))
+    def test_selected_tests_run_once_and_failures_are_named(self):
+        nothing = "Failed: the run ended without results; see above (tests)"
+        for cases, status, last in (("", 0, ["1 passed, 0 failed, 2 skipped"]), ("", 3, ["1 passed, 1 failed, 2 skipped"]),
+                                    (FAILED_CASES, 8, ["Failed: B.Wrong (tests)", "Failed: gone (tests)", "1 passed, 2 failed, 2 skipped"]),
+                                    (None, 8, [nothing, "0 passed, 1 failed, 0 skipped"])):
+            result = self.run_script("test", "-R", "A", "-j4", CTEST_STATUS=str(status),
+                                     CTEST_XML="" if cases is None else str(self.file("ctest.xml", CTEST_CASES % cases)))
+            lines = result.stdout.splitlines()
+            self.assertEqual((result.returncode, lines[-len(last):]), (status, last))
+            self.assertIn("Testing -R A", result.stdout)
+        self.assertEqual(self.calls.read_text().count(" -R A -j4"), 4)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from support import SCRIPTS, FolderTest, run
 
 sys.path.insert(0, str(SCRIPTS / "reporting"))
 from platforms import TRIED, platforms_table  # noqa: E402
-from verification_summary import verification_markdown, verification_table  # noqa: E402
+from verification_summary import verification_table  # noqa: E402
 
 
 def gtest_case(suite, name, inside="", result="completed", **properties):
@@ -58,49 +58,20 @@ class CollectTest(FolderTest):
 
 
 class VerificationTest(FolderTest):
-    def table(self, machine, **results):
-        folder = self.folder / "results" / machine
-        for key, data in results.items():
-            self.file(folder / f"{key}.json", json.dumps(data))
-        return verification_table(folder)[1]
-
-    def test_each_result_has_its_line(self):
-        self.assertEqual([line[1:] for line in self.table("here", **GOOD)], [
-            ["500 tests; 2M random or exhaustive cases, 0 comparisons", "no failure"],
-            ["499 tests", "no failure"],
-            ["9 claims, each with a deliberately false variant", "all proven; all premises satisfiable; all false variants refuted"],
-            ["25 mutants, one at a time", "all caught"],
-            ["1 target, 12.3k executions in 4.0 CPU hours", "no crash"]])
-
-    def test_the_table_begins_with_the_comparison_of_backends(self):
-        for differing, found in ((0, "no pixel differs"), (1, "**1 pixel differs**"), (7, "**7 pixels differ**")):
-            scene = {"configurations": 1200, "differing_pixels": differing, "oracle": {"configurations": 30}}
-            self.file("results/here/verify.json", json.dumps({"scenes": [scene, {"configurations": 300}]}))
-            line = verification_table(self.folder / "results/here")[1][0]
-            self.assertEqual(line[1:], ["1,500 frames of 2 scenes, and 30 small ones with an oracle", found])
-
-    def test_what_was_not_run_is_left_out(self):
-        self.assertEqual(self.table("here"), [])
-        self.assertEqual(verification_markdown(self.folder), "None of this was run for these results.")
-        self.assertEqual(len(self.table("here", mutate=GOOD["mutate"])), 1)
-
-    def test_what_ran_on_another_machine_names_it(self):
-        shard = {"cases": 6000, "pixels": 2 * 10**9, "differences": 0, "simd_targets": ["scalar", "sse4"]}
-        self.table("there", random={**shard, "differences": 1, "commit": "abc"}, mutate=GOOD["mutate"])
-        self.assertEqual([line[1:] for line in self.table("here", random=shard)], [
-            ["25 mutants, one at a time (`there`)", "all caught"],
-            ["6k pictures in scalar code and SSE4, 2G pixels compared", "no difference"],
-            ["6k pictures in scalar code and SSE4, 2G pixels compared (`there`, commit abc)", "**1 difference**"]])
-
     def test_what_failed_is_bold(self):
-        bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
-               "mutate": {"mutations": 25, "caught": 24},
-               "fuzz": {"cpu_hours": 1.0, "targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}}
-        self.assertEqual([line[2] for line in self.table("here", **bad)], [
-            "**1 failure**", "**1 failure**",
-            "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**",
-            "**24 of 25 caught**",
-            "**2 crashes**"])
+        def found(**results):
+            for key, data in results.items():
+                self.file(f"{key}.json", json.dumps(data))
+            return [line[2] for line in verification_table(self.folder)[1]]
+
+        self.assertEqual(found(verify={"scenes": [{"configurations": 300, "differing_pixels": 0}]}, **GOOD), [
+            "no pixel differs", "no failure", "no failure", "all proven; all premises satisfiable; all false variants refuted", "all caught", "no crash"])
+        scene = {"configurations": 1200, "differing_pixels": 4, "oracle": {"configurations": 30, "written_outside": 3}}
+        self.assertEqual(found(verify={"scenes": [scene]}, tests=TOTALS, prove={"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
+                               mutate={"mutations": 25, "caught": 24},
+                               fuzz={"cpu_hours": 1.0, "targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}), [
+            "**7 pixels differ**", "**1 failure**", "**1 failure**",
+            "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**", "**24 of 25 caught**", "**2 crashes**"])
 
 
 class PlatformsTest(FolderTest):

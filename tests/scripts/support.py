@@ -1,5 +1,8 @@
 """What the tests of scripts share: a folder for each test, and runs of scripts with programs made up in place of others."""
+import json
 import os
+import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -7,12 +10,32 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts"
+# The committed results that README is filled from: what they hold was judged by tests of the programs that wrote it.
+RESULTS = ROOT / re.search(r"<!-- results: (\S+) -->", (ROOT / "README.md").read_text())[1]
 os.environ["PYTHONDONTWRITEBYTECODE"] = "1"  # for the scripts that tests start
 
 
 def run(*command, directory=None, **environment):
     """The ended process, with its output."""
     return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, cwd=directory, env={**os.environ, **environment})
+
+
+def copied_results(folder):
+    """The JSON files of RESULTS and of the facts, below another folder. Returns that of RESULTS."""
+    for source in (RESULTS, RESULTS.parent / "facts"):
+        shutil.copytree(source, folder / source.name, ignore=shutil.ignore_patterns("*.svg", "*.png"))
+    return folder / RESULTS.name
+
+
+def google_benchmark(published):
+    """A bench.json of results/ as Google Benchmark wrote it."""
+    entries = [{"name": name, "run_name": name, "run_type": "iteration", "real_time": ms, "time_unit": "ms",
+                **{key: value for key, value in row.items() if key != "ms"}} for name, row in published["rows"].items() for ms in row["ms"]]
+    return {"context": published["context"], "benchmarks": entries}
+
+
+def read(path):
+    return json.loads(path.read_text())
 
 
 class FolderTest(unittest.TestCase):
