@@ -158,7 +158,11 @@ class Suite {
                                       [scene, wanted] { return tools::load_source(scene, wanted, false); });
   }
 
-  std::vector<Row> take() { return std::move(rows_); }
+  std::vector<Row> take() {
+    for (const Row& row : rows_)
+      if (row.workload) row.workload->set_subpixel_bits(options_.subpixel_bits);
+    return std::move(rows_);
+  }
 
  private:
   void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,

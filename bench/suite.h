@@ -17,6 +17,7 @@ struct SuiteOptions {
   bool quick = false;                               // see in_quick_run()
   double scale = 1.0;                               // of the scenes that can be scaled
   int width = 1920, height = 1080;                  // px
+  int subpixel_bits = 8;                            // of scenes' frames
   bool size_asked = false;                          // otherwise a .tri file is drawn at its own size
   std::vector<std::string> scenes;                  // names or files; empty: the whole suite
   std::vector<std::string> more_scenes;             // beside the whole suite

@@ -49,6 +49,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
                       if (flags.suite.threads.empty()) throw std::invalid_argument("--threads: no number");
                     });
   tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
+  tools::add_subpixel_bits(parser, flags.suite.subpixel_bits);
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
       ->type_name("FILE");

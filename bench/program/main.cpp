@@ -234,6 +234,7 @@ void add_context(const Flags& flags, std::span<const Row> rows) {
                                                                     : "scenes");
   benchmark::AddCustomContext("backends", fmt::format("{}", fmt::join(names, " ")));
   benchmark::AddCustomContext("peers", fmt::format("{}", fmt::join(peers, " ")));
+  benchmark::AddCustomContext("subpixel_bits", std::to_string(flags.suite.subpixel_bits));
   benchmark::AddCustomContext("rounds", std::to_string(flags.repetitions.value_or(kRounds)));
 }
 

@@ -254,9 +254,11 @@ PortableJudgement judge_portable(const Workload& workload, std::span<const std::
 
 void PeerStage::compare(Row& row) {
   const Workload& workload = *row.workload;
-  const int bits = std::min(row.peer->subpixel_bits(), kMaxSubpixelBits);
+  const int bits = workload.frontend_options().subpixel_bits,
+            peer_bits = std::min(row.peer->subpixel_bits(), kMaxSubpixelBits);
   const auto load = [&](PeerPayload payload) {
-    auto frame = row.peer->load(peer_scene(workload, payload, std::max(bits, 8)), row.execution.threads);
+    auto frame =
+        row.peer->load(peer_scene(workload, payload, std::max(bits, peer_bits)), row.execution.threads);
     frame->draw();
     return frame;
   };
@@ -266,7 +268,7 @@ void PeerStage::compare(Row& row) {
   const auto their_ids = load(PeerPayload::id)->read();
   auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
 
-  if (row.peer->exact) {
+  if (row.peer->exact && bits == peer_bits) {
     const PeerJudgement judgement = judge(ours, their_ids, triangles);
     row.depth_ties = judgement.depth_ties;
     if (judgement.wrong() != 0)
@@ -275,7 +277,7 @@ void PeerStage::compare(Row& row) {
           "{})",
           judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
   } else {
-    const PortableJudgement judgement = judge_portable(workload, their_ids, bits);
+    const PortableJudgement judgement = judge_portable(workload, their_ids, peer_bits);
     row.wrong_px = judgement.different;
     if (judgement.wrong != 0)
       row.error = fmt::format("{} pixels show another triangle although they are portable", judgement.wrong);

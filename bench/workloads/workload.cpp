@@ -14,6 +14,7 @@ FrontendOptions Workload::frontend_options() const {
   options.height = height_;
   options.cull = stream_ ? Cull::none : mesh_cull_;
   options.shade = !stream_;
+  options.subpixel_bits = subpixel_bits_;
   return options;
 }
 

@@ -29,6 +29,9 @@ class Workload {
   const Framebuffer& reference();
   void drop_reference() { reference_.reset(); }
 
+  // Before prepare(); 8 otherwise.
+  void set_subpixel_bits(int bits) { subpixel_bits_ = bits; }
+
   // The timed work of a front end row: scene to screen triangles. Requires prepare(true).
   std::span<const ScreenTriangle> run(Frontend& frontend, const Execution& execution);
 
@@ -46,7 +49,7 @@ class Workload {
  private:
   Framebuffer drawn() const;
 
-  int width_, height_;
+  int width_, height_, subpixel_bits_ = FrontendOptions().subpixel_bits;
   Cull mesh_cull_;
   std::function<tools::Source()> load_;
   std::optional<tools::Source> source_;

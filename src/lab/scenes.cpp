@@ -87,24 +87,25 @@ ClippingScene around_the_camera(int count, Size size) {
   return s;
 }
 
-CoverageScene scene_of(const Drawable& drawable, Size size) {
+CoverageScene scene_of(const Drawable& drawable, Size size, int subpixel_bits) {
   return coverage_scene(drawable,
                         {.width = size.width,
                          .height = size.height,
-                         .cull = std::holds_alternative<TriangleStream>(drawable) ? Cull::none : Cull::back});
+                         .cull = std::holds_alternative<TriangleStream>(drawable) ? Cull::none : Cull::back,
+                         .subpixel_bits = subpixel_bits});
 }
 
 class Catalogue {
  public:
-  explicit Catalogue(bool quick) : quick_(quick) {}
+  Catalogue(bool quick, int subpixel_bits) : quick_(quick), subpixel_bits_(subpixel_bits) {}
 
   std::vector<LabScene> built_in() {
     for (const CoverageCase& c : coverage_cases()) {
       const bool small = c.size.width < 1000;
-      add(Family::coverage, c.name, small, [&c] {
+      add(Family::coverage, c.name, small, [&c, bits = subpixel_bits_] {
         auto floats = c.make();
-        auto rounded = snapped(floats);
-        return CoverageScene{c.size, std::move(floats), std::move(rounded)};
+        auto rounded = snapped(floats, bits);
+        return CoverageScene{c.size, std::move(floats), std::move(rounded), bits};
       });
     }
     const Size seen = quick_ ? kQuick : kNormalSize;
@@ -139,7 +140,7 @@ class Catalogue {
     const Size size = quick_ ? extent.quick_size : extent.size;
     const SceneRequest request{size.width, size.height, 0.0f, quick_ ? extent.quick_scale : extent.scale};
     add(Family::coverage, info.name, false,
-        [&info, request, size] { return scene_of(info.make(request), size); });
+        [&info, request, size, bits = subpixel_bits_] { return scene_of(info.make(request), size, bits); });
     if (info.stream) return;
     const Size seen = quick_ ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
@@ -170,24 +171,26 @@ class Catalogue {
   }
 
   bool quick_;
+  int subpixel_bits_;
   std::vector<LabScene> list_;
 };
 
 }  // namespace
 
-std::vector<LabScene> lab_scenes(bool quick) {
-  return Catalogue(quick).built_in();
+std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits) {
+  return Catalogue(quick, subpixel_bits).built_in();
 }
 
-LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load) {
-  return {Family::coverage, name, false, [load] {
+LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load, int subpixel_bits) {
+  return {Family::coverage, name, false, [load, subpixel_bits] {
             const SizedDrawable own = load();
-            return AnyScene(scene_of(own.drawable, own.size));
+            return AnyScene(scene_of(own.drawable, own.size, subpixel_bits));
           }};
 }
 
-std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load) {
-  std::vector<LabScene> scenes{own_coverage_scene(name, load)};
+std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
+                                 int subpixel_bits) {
+  std::vector<LabScene> scenes{own_coverage_scene(name, load, subpixel_bits)};
   if (stream) return scenes;
   scenes.push_back({Family::visibility, name, false, [load] {
                       const SizedDrawable own = load();

@@ -25,8 +25,8 @@ struct LabScene {
   std::function<AnyScene()> make;
 };
 
-// Family by family. `quick`: smaller scenes.
-std::vector<LabScene> lab_scenes(bool quick);
+// Family by family. `quick`: smaller scenes. Backends get positions of so many subpixel bits.
+std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits = 8);
 
 // A mesh or stream, and the size of its picture.
 struct SizedDrawable {
@@ -34,7 +34,9 @@ struct SizedDrawable {
   Size size;
 };
 // The user's own scene: one for coverage, and for a mesh one for visibility and one for projection.
-LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load);
-std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load);
+LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load,
+                            int subpixel_bits = 8);
+std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
+                                 int subpixel_bits = 8);
 
 }  // namespace edgewise::lab

@@ -57,6 +57,16 @@ SuiteOptions only(std::vector<std::string> scenes) {
   return options;
 }
 
+TEST(BenchSuite, DrawsAllScenesWithTheSubpixelBits) {
+  SuiteOptions options;
+  options.subpixel_bits = 13;
+  for (const Row& row : make_suite(options)) {
+    if (row.workload) {
+      EXPECT_EQ(row.workload->frontend_options().subpixel_bits, 13) << row.name;
+    }
+  }
+}
+
 TEST(BenchSuite, RefusesTwoSourcesOfOneName) {
   const TempDir a, b;
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

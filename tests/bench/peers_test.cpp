@@ -76,10 +76,11 @@ TEST(PeerJudge, RejectsATriangleThatMissesThePixel) {
   EXPECT_EQ(pictures.judged().depth_ties, 0u);
 }
 
-std::shared_ptr<Workload> workload_of(const std::string& scene, bool fit = false) {
+std::shared_ptr<Workload> workload_of(const std::string& scene, bool fit = false, int subpixel_bits = 8) {
   const SceneRequest request{320, 180, 0.0f, 0.02};
   auto workload = std::make_shared<Workload>(request.width, request.height, Cull::back,
                                              [=] { return tools::load_source(scene, request, fit); });
+  workload->set_subpixel_bits(subpixel_bits);
   workload->prepare(true);
   return workload;
 }
@@ -194,10 +195,10 @@ Row row_of(const PeerInfo& peer, const std::shared_ptr<Workload>& workload, int 
 }
 
 TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
-  for (const bool exact : {true, false}) {
-    const auto workload = workload_of("medium");
+  for (const auto& [exact, bits] : {std::pair{true, 8}, {false, 8}, {false, 4}, {false, 12}}) {
+    const auto workload = workload_of("medium", false, bits);
     PeerInfo right = mirror<false>(), wrong = mirror<true>();
-    right.exact = wrong.exact = exact;
+    right.exact = wrong.exact = exact || bits != 8;  // of 8 bits, which is judged as another at other bits
     PeerStage stage;
     Row good = row_of(right, workload, 1), bad = row_of(wrong, workload, 2);
     stage.compare(good);

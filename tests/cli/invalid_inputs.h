@@ -49,6 +49,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise hash cube --subpixel-bits 8.5", 2, "--subpixel-bits: '8.5'"},
     {"edgewise verify --random --subpixel-bits 8", 2, "--subpixel-bits"},
     {"edgewise needs cube --subpixel-bits 8", 2, "unknown option '--subpixel-bits'"},
+    {"bench --subpixel-bits 16", 2, "--subpixel-bits: '16' is not a whole number from 4 to 15"},
     {"edgewise portable cube --depth d32", 2, "did you mean 'd32_sfloat'"},
     {"edgewise portable cube -o $DIR/a.png --picture $DIR/a.png", 2, "would write the same file"},
     {"edgewise portable cube cubes -o $DIR/a.png", 2, "a.png"},

@@ -525,6 +525,9 @@ TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {
   EXPECT_EQ(json.at("ok"), true);
   EXPECT_EQ(json.at("simd_targets").size(), supported_targets().size());
   ASSERT_EQ(json.at("scenes").size(), 2u);
+  for (const auto& [backend, wrong] : json.at("scenes")[1].at("pixels_not_hit_once").items())
+    EXPECT_EQ(wrong, 0) << backend;
+  EXPECT_EQ(json.at("scenes")[1].at("pixels_not_hit_once").size(), backends().size());
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 

@@ -38,6 +38,14 @@ using WrongOnThreads =
       if (execution.threads == 3 && background == 0xFFFFFFFFu) frame.payload[0] += 1;
     }>;
 
+// Skips the last pixel of each row, which leaves gaps in a grid.
+using LeavesGaps = testing::Spoiled<[](FrameView frame, std::uint32_t background, auto) {
+  for (int y = 0; y < frame.height; ++y) {
+    frame.depth[y * frame.stride + frame.width - 1] = 0x7FFFFFFF;
+    frame.payload[y * frame.stride + frame.width - 1] = background;
+  }
+}>;
+
 // Draws the picture correctly, but overwrites the first word behind a row.
 using WritesBesideTheImage = testing::Spoiled<[](FrameView frame, std::uint32_t background, auto) {
   frame.payload[kWrongY * frame.stride + frame.width] = background;
@@ -67,6 +75,8 @@ TEST(Verify, PassesEveryBackendOnEveryScene) {
   for (const SceneVerdict& verdict : report.scenes) {
     EXPECT_TRUE(verdict.ok()) << explain(verdict);
     EXPECT_GT(verdict.oracle_configurations, 0u) << verdict.scene;
+    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? backends().size() : 0)
+        << verdict.scene;
   }
 }
 
@@ -140,6 +150,14 @@ TEST(Verify, FindsWritesOutsideTheImage) {
   EXPECT_EQ(verdict.mismatches.at(0).found.outside, 1u);
   const std::string text = explain(verdict);
   EXPECT_NE(text.find("words written beside the image: 1"), std::string::npos) << text;
+}
+
+TEST(Verify, FindsGapsInAGrid) {
+  const VerifyReport report = verify_quietly(small_plan({"grid4"}, testing::wrong_backend<LeavesGaps>()));
+  const auto& hits = report.scenes.at(0).hits;
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_EQ(hits[0].not_once, 0u);
+  EXPECT_EQ(hits[1].not_once, 41u);
 }
 
 TEST(Verify, KeepsFindingsIfPicturesCannotBeWritten) {

@@ -58,7 +58,7 @@ std::vector<lab::LabScene> scenes_of_file(const std::string& path, const Accurac
     Shot shot = load_shot(path, options, 0.0);
     return lab::SizedDrawable{std::move(shot.source.drawable), {shot.frontend.width, shot.frontend.height}};
   };
-  return lab::own_scenes(source_name(path), is_stream_file(path), load);
+  return lab::own_scenes(source_name(path), is_stream_file(path), load, plan.subpixel_bits);
 }
 
 [[noreturn]] void reject(const std::string& name, const std::vector<lab::LabScene>& known) {
@@ -170,7 +170,7 @@ AccuracyScenes scenes_of(const AccuracyPlan& plan) {
       throw std::invalid_argument("--peers measures the scene 'choice' only");
     return {.choice = true};
   }
-  const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick);
+  const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick, plan.subpixel_bits);
   AccuracyScenes chosen;
   chosen.turning_cube = chosen.choice = plan.scenes.empty();
   if (plan.scenes.empty())

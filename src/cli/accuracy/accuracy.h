@@ -25,6 +25,7 @@ struct AccuracyPlan {
   std::vector<std::string> scenes;   // names or paths; none: the built-in default scenes
   std::vector<std::string> methods;  // none: all
   std::optional<Family> family;      // none: all
+  int subpixel_bits = 8;             // of the backends' positions
   bool quick = false;                // small sizes, few frames
   bool fit = false;                  // see load_source
   bool pictures = false;             // whether to keep close-ups of errors

@@ -96,6 +96,8 @@ Action add_accuracy(CLI::App& command) {
       ->type_name("NAME");
   command.add_flag("--peers", o->plan.peers,
                    "Measure other projects' rasterizers that start here, in the scene choice");
+  add_integer(command, "--subpixel-bits", o->plan.subpixel_bits, kMinSubpixelBits, kMaxSubpixelBits,
+              "Of positions that our backends get in the coverage family (8)");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   add_text(command, "--json", "FILE", o->json,
            "Also write all results as JSON; - for stdout, instead of the tables");

@@ -115,7 +115,7 @@ Json cube_json(const CubeResult& cube) {
 }  // namespace
 
 Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
-  Json result{{"methods", Json::array()}, {"scenes", Json::array()}};
+  Json result{{"subpixel_bits", plan.subpixel_bits}, {"methods", Json::array()}, {"scenes", Json::array()}};
   const ChosenMethods methods = methods_of(plan);
   for (const auto& [family, info] : methods.all())
     result["methods"].push_back({{"family", name_of(family)},

@@ -42,10 +42,10 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
     const auto i = static_cast<std::size_t>(n);
     const lab::CoverageMethod& method = *methods[i];
     const lab::DrawnRuns drawn(method, input, scene.window());
-    const lab::Cracks cracks = crack_judge.find(drawn, method.promise.snap_bits);
+    const lab::Cracks cracks = crack_judge.find(drawn, scene.snap_bits(method));
     CoverageScores scores{lab::score_coverage(snapped, drawn, scene.floats), source.score(drawn),
                           CrackCounts(cracks), visible.score(method)};
-    result.methods[i] = {std::string(method.info.name), method.info.exact, scores};
+    result.methods[i] = {std::string(method.info.name), is_exact(method, scene.subpixel_bits), scores};
     if (judging.plan.pictures && judging.scene.smallest && scores.source.errors() != 0)
       closeups[i] = closeup(closeup_name(Family::coverage, judging.scene.name, method.info.name),
                             mark_coverage(source.truth(), source.of_sources(drawn), cracks, source.source()));

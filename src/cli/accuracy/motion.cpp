@@ -19,16 +19,16 @@ constexpr int kCubeFrames = 3600, kQuickCubeFrames = 120, kCubeFramesPerTask = 2
 constexpr int kMotionFrames = 24, kQuickMotionFrames = 6;
 constexpr std::string_view kMovingScenes[] = {"torus-knot", "terrain"};
 
-lab::CoverageScene scene_at(std::string_view name, int frame) {
+lab::CoverageScene scene_at(std::string_view name, int frame, int subpixel_bits) {
   const float seconds = static_cast<float>(frame) / static_cast<float>(kFramesPerSecond);
   return lab::coverage_scene(find_scene(name).make({kSize.width, kSize.height, seconds}),
-                             {.width = kSize.width, .height = kSize.height});
+                             {.width = kSize.width, .height = kSize.height, .subpixel_bits = subpixel_bits});
 }
 
 using Scores = std::vector<CoverageScores>;  // one per frame
 
-CubeMethodResult summed(const lab::MethodInfo& method, const Scores& scores) {
-  CubeMethodResult sum{std::string(method.name), method.exact};
+CubeMethodResult summed(const lab::CoverageMethod& method, const Scores& scores, int subpixel_bits) {
+  CubeMethodResult sum{std::string(method.info.name), is_exact(method, subpixel_bits)};
   for (const CoverageScores& score : scores) {
     sum.gaps += score.cracks.gaps, sum.double_hits += score.cracks.double_hits;
     sum.missing += score.source.missing, sum.extra += score.source.extra;
@@ -38,15 +38,15 @@ CubeMethodResult summed(const lab::MethodInfo& method, const Scores& scores) {
 }
 
 // The frame with the most cracks.
-Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
+Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores, int subpixel_bits) {
   const auto worst = std::max_element(scores.begin(), scores.end(), [](const auto& a, const auto& b) {
     return a.cracks.gaps + a.cracks.double_hits < b.cracks.gaps + b.cracks.double_hits;
   });
-  const lab::CoverageScene scene = scene_at("cube", static_cast<int>(worst - scores.begin()));
+  const lab::CoverageScene scene = scene_at("cube", static_cast<int>(worst - scores.begin()), subpixel_bits);
   const lab::SourceJudge source(scene, 1);
   const lab::DrawnRuns drawn(method, scene.input(), scene.window());
   const lab::Cracks cracks =
-      lab::CrackJudge(scene.floats, source.floats()).find(drawn, method.promise.snap_bits);
+      lab::CrackJudge(scene.floats, source.floats()).find(drawn, scene.snap_bits(method));
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
                  mark_coverage(source.truth(), source.of_sources(drawn), cracks, source.source()));
 }
@@ -60,7 +60,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   std::vector<Scores> scores(judged.size(), Scores(static_cast<std::size_t>(frames)));
   parallel_for(plan.threads, frames / kCubeFramesPerTask, [&](int task) {
     for (int frame = task * kCubeFramesPerTask; frame < (task + 1) * kCubeFramesPerTask; ++frame) {
-      const lab::CoverageScene scene = scene_at("cube", frame);
+      const lab::CoverageScene scene = scene_at("cube", frame, plan.subpixel_bits);
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1);
       const lab::SourceJudge source(scene, 1);
       const lab::CrackJudge cracks(scene.floats, source.floats());
@@ -69,7 +69,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
         scores[i][static_cast<std::size_t>(frame)] = {
             lab::score_coverage(snapped, drawn, scene.floats),
             source.score(drawn),
-            CrackCounts(cracks.find(drawn, judged[i]->promise.snap_bits)),
+            CrackCounts(cracks.find(drawn, scene.snap_bits(*judged[i]))),
             {}};
       }
     }
@@ -79,9 +79,10 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   CubeResult result{frames, kSize.width, kSize.height, {}};
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const lab::CoverageMethod& method = *judged[i];
-    const CubeMethodResult& counts = result.methods.emplace_back(summed(method.info, scores[i]));
+    const CubeMethodResult& counts =
+        result.methods.emplace_back(summed(method, scores[i], plan.subpixel_bits));
     if (plan.pictures && counts.gaps + counts.double_hits != 0)
-      add_unless_known(worst_frame(method, scores[i]), closeups, first_closeup);
+      add_unless_known(worst_frame(method, scores[i], plan.subpixel_bits), closeups, first_closeup);
   }
   return result;
 }
@@ -97,7 +98,7 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
     for (std::size_t i = 0; i < judged.size(); ++i)
       canvases.push_back(std::make_unique<lab::Canvas>(kSize.width, kSize.height));
     for (int frame = 0; frame < frames; ++frame) {
-      lab::CoverageScene scene = scene_at(name, frame);
+      lab::CoverageScene scene = scene_at(name, frame, plan.subpixel_bits);
       for (std::size_t i = 0; i < scene.floats.size(); ++i)  // ids from 1; 0 is the background
         ++scene.floats[i].payload, ++scene.snapped[i].payload;
       auto visible = scene.truth->visible_triangles(scene.window(), plan.threads).triangle;

@@ -18,6 +18,11 @@ struct ChosenMethods {
 };
 ChosenMethods methods_of(const AccuracyPlan& plan);
 
+// Whether a method covers positions of so many bits exactly. Those of others than backends have 8.
+inline bool is_exact(const lab::CoverageMethod& method, int subpixel_bits) {
+  return method.info.exact && (method.backend || subpixel_bits == 8);
+}
+
 // The inputs of judge() and its sink for close-ups.
 struct Judging {
   const AccuracyPlan& plan;

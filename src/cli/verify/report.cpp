@@ -30,6 +30,13 @@ std::string explain(const Mismatch& m) {
   return text;
 }
 
+std::string names_of(const VerifyPlan& plan) {
+  std::string names;
+  for (const BackendInfo& backend : plan.backends)
+    names += (names.empty() ? "" : ", ") + std::string(backend.name);
+  return names;
+}
+
 nlohmann::json scene_json(const SceneVerdict& v) {
   nlohmann::json json{
       {"scene", v.scene},
@@ -38,6 +45,7 @@ nlohmann::json scene_json(const SceneVerdict& v) {
       {"written_outside", v.written_outside},
       {"oracle", {{"configurations", v.oracle_configurations}, {"differing_pixels", v.oracle_differences}}},
       {"ok", v.ok()}};
+  for (const HitCount& h : v.hits) json["pixels_not_hit_once"][h.backend] = h.not_once;
   json["mismatches"] = nlohmann::json::array();
   for (const Mismatch& m : v.mismatches) json["mismatches"].push_back(explain(m));
   return json;
@@ -67,19 +75,26 @@ std::string verify_line(const SceneVerdict& v) {
 std::string explain(const SceneVerdict& verdict) {
   std::string text;
   for (const Mismatch& m : verdict.mismatches) text += explain(m);
+  for (const HitCount& h : verdict.hits)
+    if (h.not_once != 0)
+      text += fmt::format("  {} draws {} pixels not exactly once\n", h.backend, h.not_once);
   return text;
 }
 
 std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
   std::uint64_t configurations = 0, oracle = 0;
   int differing_scenes = 0;
+  std::string once;
   for (const SceneVerdict& v : report.scenes) {
     configurations += v.configurations;
     oracle += v.oracle_configurations;
     differing_scenes += v.ok() ? 0 : 1;
+    if (!v.hits.empty() && v.ok()) once += (once.empty() ? "" : ", ") + printable(v.scene);
   }
-  const std::string text = fmt::format("{} frames compared with {}, {} with the oracle: ", configurations,
-                                       plan.backends.front().name, oracle);
+  std::string text;
+  if (!once.empty()) text += fmt::format("{}: every pixel drawn exactly once by {}.\n", once, names_of(plan));
+  text += fmt::format("{} frames compared with {}, {} with the oracle: ", configurations,
+                      plan.backends.front().name, oracle);
   return text + (report.ok()
                      ? "no bit differs.\n"
                      : fmt::format("{} scene{} DIFFER{}.\n", differing_scenes,

@@ -73,6 +73,10 @@ Size affordable_size(const Shot& shot) {
 
 }  // namespace
 
+bool covers_each_pixel_once(const Source& source) {
+  return source.built_in != nullptr && source.stream && source.name.starts_with("grid");
+}
+
 Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name) {
   const SceneInfo* const built_in = is_file_path(name) ? nullptr : &find_scene(name);
   const Size size = plan.size.value_or(plan.full ? kFullSize : kQuickSize);

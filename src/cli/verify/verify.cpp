@@ -121,6 +121,8 @@ class SceneCheck {
         lab::poison(expected);
         backends_.front()->draw(triangles, expected.view(), {background_of(payload)}, kReferenceExecution);
         compare_all({plan_.backends.front().name, shot, triangles, expected});
+        if (cull == Cull::none && payload == Payload::id && covers_each_pixel_once(shot.source))
+          check_hits(triangles, width, height);
       }
     }
   }
@@ -154,6 +156,14 @@ class SceneCheck {
         verdict_.oracle_differences += compare({"oracle", shot, triangles, expected}, b, {{kSmallestTiles}});
         ++verdict_.oracle_configurations;
       }
+    }
+  }
+
+  void check_hits(std::span<const ScreenTriangle> triangles, int width, int height) {
+    for (std::size_t b = 0; b < backends_.size(); ++b) {
+      const auto hits = lab::count_hits(*backends_[b], triangles, width, height, kSmallestTiles);
+      const auto wrong = std::count_if(hits.begin(), hits.end(), [](std::uint32_t n) { return n != 1; });
+      verdict_.hits.push_back({std::string(plan_.backends[b].name), static_cast<std::uint64_t>(wrong)});
     }
   }
 
@@ -218,7 +228,8 @@ class SceneCheck {
 }  // namespace
 
 bool SceneVerdict::ok() const {
-  return differing_pixels == 0 && oracle_differences == 0 && written_outside == 0;
+  return differing_pixels == 0 && oracle_differences == 0 && written_outside == 0 &&
+         std::all_of(hits.begin(), hits.end(), [](const HitCount& h) { return h.not_once == 0; });
 }
 
 bool VerifyReport::ok() const {

@@ -54,6 +54,11 @@ struct Mismatch {
   std::string file_error = {};  // why `files` is incomplete
 };
 
+struct HitCount {
+  std::string backend;
+  std::uint64_t not_once;  // pixels that were not drawn exactly once
+};
+
 struct SceneVerdict {
   std::string scene;
   int width, height;
@@ -63,6 +68,7 @@ struct SceneVerdict {
   std::uint64_t written_outside = 0;   // words outside the image, in all frames
   int oracle_width = 0, oracle_height = 0;
   std::uint64_t oracle_configurations = 0, oracle_differences = 0;
+  std::vector<HitCount> hits;        // built-in grids only
   std::vector<Mismatch> mismatches;  // the first per backend and judge
 
   bool ok() const;
@@ -96,5 +102,8 @@ Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name);
 
 // The scene scaled down for the oracle: pixels times triangles stay within its budget.
 Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name);
+
+// Whether the scene is watertight over the whole image, so that each pixel is covered exactly once.
+bool covers_each_pixel_once(const Source& source);
 
 }  // namespace edgewise::tools

@@ -187,7 +187,8 @@ CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions
   const auto screen = frontend.run(drawable, options);
   CoverageScene scene{{options.width, options.height},
                       unsnapped(screen, frontend.unsnapped()),
-                      {screen.begin(), screen.end()}};
+                      {screen.begin(), screen.end()},
+                      options.subpixel_bits};
   if (cull != Cull::none)
     scene.keep_if([&](std::size_t i) { return keeps(cull, FloatTruth(scene.floats[i].at).facing()); });
   return scene;

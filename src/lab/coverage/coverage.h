@@ -115,6 +115,7 @@ struct CoverageScene {
   Size size;
   std::vector<FloatTriangle> floats;
   std::vector<ScreenTriangle> snapped;
+  int subpixel_bits = 8;  // of these
   // Of a scene with a camera, from whose vertices a front end made these triangles: its truth, and of each of
   // them the triangle in it. Otherwise null and empty: the floats themselves are the source.
   std::shared_ptr<const SceneTruth> truth = nullptr;
@@ -122,6 +123,10 @@ struct CoverageScene {
 
   CoverageInput input() const { return {floats, snapped}; }
   Window window() const { return {size.width, size.height}; }
+  // The bits to which a method rounds positions on this scene: see CoveragePromise::snap_bits.
+  std::optional<int> snap_bits(const CoverageMethod& method) const {
+    return method.backend ? subpixel_bits : method.promise.snap_bits;
+  }
   // Drops the triangles for whose index keep() is false. Before there are `sources`.
   void keep_if(const std::function<bool(std::size_t)>& keep);
 };

@@ -157,9 +157,10 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
 
 namespace {
 
-// By kShownBits.
-constexpr std::string_view kOurs[] = {"ours_8", "ours_12", "ours_15"},
-                           kExact[] = {"exact_8", "exact_12", "exact_15"};
+constexpr std::string_view kOurs[] = {"ours_4",  "ours_5",  "ours_6",  "ours_7",  "ours_8",  "ours_9",
+                                      "ours_10", "ours_11", "ours_12", "ours_13", "ours_14", "ours_15"},
+                           kExact[] = {"exact_8", "exact_12", "exact_15"};  // by kShownBits
+static_assert(std::size(kOurs) == kMaxSubpixelBits - kMinSubpixelBits + 1);
 
 constexpr std::string_view kFrontend = "frontend/transform.cpp",
                            kInFloat =
@@ -167,11 +168,11 @@ constexpr std::string_view kFrontend = "frontend/transform.cpp",
                            kInDouble =
                                "positions off by less than 2^-17 px before rounding, for usual cameras";
 
-ProjectionMethod our(std::size_t i) {
-  const bool fine = is_fine(kShownBits[i]);
-  return {{kOurs[i], fine ? "our front end, in double" : "our front end, in float", kFrontend,
-           fine ? kInDouble : kInFloat, false},
-          kShownBits[i],
+ProjectionMethod our(int bits) {
+  const bool fine = is_fine(bits);
+  return {{kOurs[bits - kMinSubpixelBits], fine ? "our front end, in double" : "our front end, in float",
+           kFrontend, fine ? kInDouble : kInFloat, false},
+          bits,
           ours};
 }
 
@@ -187,7 +188,7 @@ ProjectionMethod exact(std::size_t i) {
 std::span<const ProjectionMethod> projection_methods() {
   static const std::vector<ProjectionMethod> kMethods = [] {
     std::vector<ProjectionMethod> list;
-    for (std::size_t i = 0; i < std::size(kShownBits); ++i) list.push_back(our(i));
+    for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits) list.push_back(our(bits));
     list.push_back(
         {{"ours_float", "the floats that our front end rounds to at most 8 bits: relative to the camera",
           kFrontend, kInFloat, false},

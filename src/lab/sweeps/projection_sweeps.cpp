@@ -1,4 +1,7 @@
 // Projection sweeps: the same sphere farther and farther from the origin of its mesh, and from the camera.
+#include <algorithm>
+#include <iterator>
+
 #include "core/random.h"
 #include "lab/projection/projection.h"
 #include "lab/sweeps/sweeps.h"
@@ -7,8 +10,20 @@ namespace edgewise::lab {
 
 namespace {
 
+// Of ours and the exact ones, those of kShownBits.
+const std::vector<ProjectionMethod>& swept() {
+  static const std::vector<ProjectionMethod> list = [] {
+    std::vector<ProjectionMethod> all(projection_methods().begin(), projection_methods().end());
+    std::erase_if(all, [](const ProjectionMethod& method) {
+      return method.snap_bits && std::ranges::find(kShownBits, *method.snap_bits) == std::end(kShownBits);
+    });
+    return all;
+  }();
+  return list;
+}
+
 Measured measure_scene(Scene scene) {
-  const auto methods = projection_methods();
+  const auto& methods = swept();
   const ProjectionJudge judge(std::move(scene), {480, 270}, 1);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i)
@@ -17,6 +32,12 @@ Measured measure_scene(Scene scene) {
 }
 
 }  // namespace
+
+std::vector<MethodInfo> swept_projection_methods() {
+  std::vector<MethodInfo> list;
+  for (const ProjectionMethod& method : swept()) list.push_back(method.info);
+  return list;
+}
 
 std::vector<Sweep> projection_sweeps() {
   constexpr std::string_view kRounding = "8 bits move a vertex by up to 1/512 px, and so do floats far away";

@@ -28,6 +28,7 @@ std::uint64_t Measured::fewest_trials() const {
 std::vector<MethodInfo> swept_methods(Family family) {
   if (family == Family::coverage) return swept_coverage_methods();
   if (family == Family::facing) return swept_facing_methods();
+  if (family == Family::projection) return swept_projection_methods();
   return methods_of(family);
 }
 

@@ -57,6 +57,7 @@ struct Sweep {
 std::vector<MethodInfo> swept_methods(Family family);
 std::vector<MethodInfo> swept_coverage_methods();
 std::vector<MethodInfo> swept_facing_methods();
+std::vector<MethodInfo> swept_projection_methods();
 
 // One table per family, in a file of its name.
 std::vector<Sweep> coverage_sweeps();
