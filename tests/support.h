@@ -105,34 +105,19 @@ inline std::string describe(const lab::DrawOptions& how) {
   return describe(how.execution) + (tiles.empty() ? "" : ", " + tiles);
 }
 
-// Empty if the frames are equal.
-inline std::string difference_text(const Framebuffer& expected, const Framebuffer& actual) {
-  const auto difference = lab::compare(expected, actual);
-  if (difference.pixels == 0) return {};
-  const int x = difference.first_x, y = difference.first_y;
-  const auto both = [&](std::uint32_t a, std::uint32_t b) {
-    return std::to_string(a) + " and " + std::to_string(b);
-  };
-  return std::to_string(difference.pixels) + " pixels differ, first (" + std::to_string(x) + ", " +
-         std::to_string(y) + "): depth " + both(expected.depth_row(y)[x], actual.depth_row(y)[x]) +
-         ", payload " + both(expected.payload_row(y)[x], actual.payload_row(y)[x]);
-}
-
 inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, const std::string& what) {
-  const std::string difference = difference_text(expected, actual);
-  if (!difference.empty()) ADD_FAILURE() << what << ": " << difference;
-}
-
-inline std::vector<std::string_view> names_of(std::span<const BackendInfo> infos) {
-  std::vector<std::string_view> names;
-  for (const auto& b : infos) names.push_back(b.name);
-  return names;
+  const auto difference = lab::compare(expected, actual);
+  if (difference.pixels == 0) return;
+  const int x = difference.first_x, y = difference.first_y;
+  ADD_FAILURE() << what << ": " << difference.pixels << " pixels differ, first (" << x << ", " << y
+                << "): depth " << expected.depth_row(y)[x] << " and " << actual.depth_row(y)[x]
+                << ", payload " << expected.payload_row(y)[x] << " and " << actual.payload_row(y)[x];
 }
 
 // The backends and wireframe().
 inline std::vector<std::string_view> all_drawers() {
-  std::vector<std::string_view> names = names_of(backends());
-  names.push_back(wireframe().name);
+  std::vector<std::string_view> names = {wireframe().name};
+  for (const BackendInfo& backend : backends()) names.push_back(backend.name);
   return names;
 }
 inline const BackendInfo& find_drawer(std::string_view name) {

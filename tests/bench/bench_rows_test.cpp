@@ -1,7 +1,6 @@
 // The benchmark's rows have different names, and rows that draw wrong pixels are never timed.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -57,21 +56,52 @@ SuiteOptions only(std::vector<std::string> scenes) {
   return options;
 }
 
-TEST(BenchSuite, DrawsAllScenesWithTheSubpixelBits) {
+constexpr const char* kMesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST(BenchSuite, NamesAllRowsDifferentlyAndDrawsThemWithTheSubpixelBits) {
+  const TempDir folder;
   SuiteOptions options;
   options.subpixel_bits = 13;
+  options.threads = {1, 2, 5};
+  options.more_scenes = {folder.write("threads:1\x1b\xff.obj", kMesh).string()};
+  std::set<std::string> names;
   for (const Row& row : make_suite(options)) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_EQ(row.name.find('\x1b'), std::string::npos) << row.name;
     if (row.workload) {
       EXPECT_EQ(row.workload->frontend_options().subpixel_bits, 13) << row.name;
     }
   }
+  for (const SceneInfo& scene : builtin_scenes())
+    for (const SimdTarget target : supported_targets()) {
+      const bool narrower = target != SimdTarget::scalar && target != resolve(SimdTarget::best);
+      EXPECT_EQ(names.contains("tiled+frontend/" + std::string(scene.name) +
+                               "/target:" + std::string(name_of(target)) + "/threads:1"),
+                narrower);
+    }
+}
+
+TEST(BenchSuite, TimesWholeFramesOfAFewScenesInAQuickRun) {
+  const TempDir folder;
+  SuiteOptions options;
+  options.quick = true;
+  options.more_scenes = {folder.write("mine.obj", kMesh).string()};
+  std::set<std::string> scenes;
+  for (const Row& row : make_suite(options)) {
+    EXPECT_FALSE(row.name.starts_with("lab/")) << "the main chart has rows of its own";
+    if (is_choice(row) || is_cell(row)) continue;
+    EXPECT_NE(row.timed, Timed::raster) << row.name;
+    const std::size_t begin = row.name.find('/') + 1;
+    scenes.insert(row.name.substr(begin, row.name.find('/', begin) - begin));
+  }
+  EXPECT_TRUE(scenes.contains("mine"));
+  EXPECT_LT(scenes.size(), builtin_scenes().size());
 }
 
 TEST(BenchSuite, RefusesTwoSourcesOfOneName) {
   const TempDir a, b;
-  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  const std::string first = a.write("x.obj", mesh).string(), second = b.write("x.obj", mesh).string();
-  const std::string clash = b.write("a_b.obj", mesh).string(), colon = a.write("a:b.obj", mesh).string();
+  const std::string first = a.write("x.obj", kMesh), second = b.write("x.obj", kMesh);
+  const std::string clash = b.write("a_b.obj", kMesh), colon = a.write("a:b.obj", kMesh);
   EXPECT_EQ(message_of([&] {
               make_suite(only({first, second}));
             }),
@@ -80,168 +110,49 @@ TEST(BenchSuite, RefusesTwoSourcesOfOneName) {
   EXPECT_NE(message_of([&] { make_suite(only({clash, colon})); }), "");
 }
 
-TEST(BenchSuite, HasTwelveCells) {
-  EXPECT_EQ(cells().size(), 12u);
-  EXPECT_EQ(cells()[4].factors, "traversal:tiles/fill:spans/simd:scalar");
-  EXPECT_EQ(cells()[4].backend->name, "tiles+spans");
-  EXPECT_TRUE(cells().back().factors.ends_with("/with:hiz+masks")) << cells().back().factors;
-}
-
-TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
-  const TempDir folder;
-  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  const std::string odd = folder.write("threads:1\x1b\xff.obj", mesh).string();
-  std::set<std::string> names;
-  SuiteOptions options = only({odd});
-  options.threads = {1, 2, 5};
-  for (const Row& row : make_suite(options)) {
-    EXPECT_TRUE(names.insert(row.name).second) << row.name;
-    EXPECT_NE(row.name.find("/threads_1\?\?/"), std::string::npos) << row.name;
-  }
-  const auto targets = supported_targets();
-  const auto narrower = std::count_if(targets.begin(), targets.end(), [](SimdTarget target) {
-    return target != SimdTarget::scalar && target != resolve(SimdTarget::best);
-  });
-  int of_peers = 0;
-  for (const lab::PeerInfo& peer : lab::benchmark_peers()) of_peers += peer.most_threads + peer.own_clock;
-  EXPECT_EQ(names.size(), 3 + 6 * backends().size() + static_cast<std::size_t>(of_peers + 2 * narrower) +
-                              12 * (tools::default_threads() > 1 ? 2 : 1));
-}
-
-TEST(BenchStage, ComparesWireframesWithWireframes) {
-  const auto workload = cube();
-  Stage stage;
-  for (const BackendInfo& backend : backends()) {
-    Row row = row_of(backend, workload);
-    row.execution.threads = 3;
-    stage.compare(row);
-    EXPECT_EQ(row.error, "") << backend.name;
-  }
-}
-
-TEST(BenchSuite, NamesAllRowsDifferently) {
-  std::set<std::string> names;
-  for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;
-}
-
-// With or without peers. There are no rows for the scalar target. The best target's row is the scene's own.
-TEST(BenchSuite, TimesWholeFramesOfOursWithEachNarrowerTarget) {
-  std::map<std::string, int> count;
-  for (const Row& row : make_suite({})) ++count[row.name];
-  for (const SceneInfo& scene : builtin_scenes())
-    for (const SimdTarget target : supported_targets())
-      for (const std::string threads : {"1", "2"}) {
-        const bool wanted = target != SimdTarget::scalar && target != resolve(SimdTarget::best);
-        const std::string name = "tiled+frontend/" + std::string(scene.name) +
-                                 "/target:" + std::string(name_of(target)) + "/threads:" + threads;
-        EXPECT_EQ(count[name], wanted ? 1 : 0) << name;
-      }
-}
-
-// The suite's rows by name, with a tenth of the triangles of each scalable scene.
-std::map<std::string, Row> small_rows(int width, int height) {
+// The engine with numbers that are not exact may err, but in few pixels.
+TEST(BenchSuite, TimesCellsAndEnginesThatDrawTheReference) {
   SuiteOptions options;
   options.scale = 0.1;
-  options.width = width, options.height = height;
-  std::map<std::string, Row> rows;
-  for (Row& row : make_suite(options)) rows.emplace(row.name, std::move(row));
-  return rows;
-}
-
-TEST(BenchSuite, TimesFramesOfFourScenesAndCoverageMethodsInAQuickRun) {
-  SuiteOptions options;
-  options.quick = true;
-  const TempDir folder;
-  options.more_scenes = {folder.write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string()};
-  std::set<std::string> scenes;
-  for (const Row& row : make_suite(options)) {
-    if (row.prepare || is_choice(row)) continue;
-    EXPECT_TRUE(is_cell(row) || std::count(row.name.begin(), row.name.end(), '/') == 2) << row.name;
-    EXPECT_NE(row.timed, Timed::raster) << row.name;
-    scenes.insert(row.name.substr(row.name.find('/') + 1, row.name.rfind('/') - row.name.find('/') - 1));
-  }
-  std::erase_if(scenes, [](const std::string& scene) { return scene.find('/') != std::string::npos; });
-  EXPECT_EQ(scenes, (std::set<std::string>{"cubes", "grid4", "large", "mine", "torus-knot"}));
-}
-
-TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
-  std::map<std::string, Row> rows = small_rows(480, 270);
+  options.width = 160, options.height = 90;
   Stage stage;
-  const auto wrong_px = [&](const std::string& scene, const std::string& run) {
-    Row& row = rows.at("tiled/" + scene + "/engine:" + run + "/threads:1");
+  std::size_t compared_cells = 0, compared_engines = 0;
+  for (Row& row : make_suite(options)) {
+    const bool engine = row.name.find("/engine:") != std::string::npos;
+    if (!is_cell(row) && !engine) continue;
+    ++(engine ? compared_engines : compared_cells);
     row.workload->prepare(true);
     stage.compare(row);
     EXPECT_EQ(row.error, "") << row.name;
-    return row.wrong_px;
-  };
-  for (const std::string scene : {"large", "medium", "small", "grid64"}) {
-    EXPECT_FALSE(wrong_px(scene, "exact").has_value());
-    for (const std::string run : {"int64", "double"})
-      EXPECT_EQ(wrong_px(scene, run), 0u) << scene << ' ' << run;
-    for (const std::string run : {"float", "float_rebased"})
-      EXPECT_LT(wrong_px(scene, run).value(), 480u * 270 / 100) << scene << ' ' << run;
+    const bool may_err =
+        row.name.find(":float") != std::string::npos || row.name.find(":int32") != std::string::npos;
+    EXPECT_TRUE(may_err || row.wrong_px.value_or(0) == 0) << row.name;
   }
-  EXPECT_GT(wrong_px("small", "float").value(), 0u);
-  EXPECT_GT(wrong_px("large", "int32").value(), 0u);
-}
-
-TEST(BenchSuite, TimesCellsThatDrawTheReference) {
-  std::map<std::string, Row> rows = small_rows(160, 90);
-  Stage stage;
-  for (const SceneInfo& scene : builtin_scenes())
-    for (const Cell& cell : cells())
-      for (const int threads : {1, tools::default_threads()}) {
-        const auto row = rows.find("cell/" + std::string(scene.name) + "/" + cell.factors +
-                                   "/threads:" + std::to_string(threads));
-        ASSERT_NE(row, rows.end()) << scene.name << ", " << cell.factors;
-        EXPECT_FALSE(is_plain(row->second)) << row->first;
-        row->second.workload->prepare(true);
-        stage.compare(row->second);
-        EXPECT_EQ(row->second.error, "") << row->first;
-      }
-}
-
-std::map<std::string, Row> timed_methods(const SuiteOptions& options) {
-  std::map<std::string, Row> rows;
-  for (Row& row : make_suite(options))
-    if (row.name.starts_with("lab/")) rows.emplace(row.name, std::move(row));
-  return rows;
+  EXPECT_EQ(compared_cells,
+            builtin_scenes().size() * cells().size() * (tools::default_threads() > 1 ? 2 : 1));
+  EXPECT_GT(compared_engines, 6u);
 }
 
 // Scalar and SIMD, on one thread and on two, where a method has these.
 TEST(BenchMethods, AreTimedInEachForm) {
   const TempDir folder;
-  SuiteOptions options = only({folder.write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string()});
-  EXPECT_TRUE(timed_methods(options).empty());
+  SuiteOptions options = only({folder.write("mine.obj", kMesh).string()});
   options.methods = true;
-  std::set<std::string> expected, found;
-  const std::string best(name_of(resolve(SimdTarget::best)));
-  for (const lab::CoverageMethod& method : lab::coverage_methods())
-    for (const std::string& simd : {std::string("scalar"), method.simd ? best : "scalar"})
-      for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
-        expected.insert("lab/mine/family:coverage/method:" + std::string(method.info.name) + "/simd:" + simd +
-                        "/threads:" + std::to_string(threads));
+  std::map<std::string, int> forms;
   Stage stage;
-  for (auto& [name, row] : timed_methods(options)) {
-    found.insert(name);
+  for (Row& row : make_suite(options)) {
+    if (!row.name.starts_with("lab/")) continue;
+    const auto method = row.name.find("method:");
+    ++forms[row.name.substr(method + 7, row.name.find('/', method) - method - 7)];
     stage.compare(row);
-    EXPECT_EQ(row.error, "") << name;
-    EXPECT_GT(row.once_s, 0.0) << name;
+    EXPECT_EQ(row.error, "") << row.name;
+    EXPECT_GT(row.once_s, 0.0) << row.name;
   }
-  EXPECT_EQ(found, expected);
-}
-
-TEST(BenchMethods, AreTimedOnThreeScenes) {
-  const auto scenes = [](bool quick) {
-    SuiteOptions options;
-    options.quick = quick;
-    std::set<std::string> found;
-    for (const auto& [name, row] : timed_methods(options))
-      found.insert(name.substr(4, name.find('/', 4) - 4));
-    return found;
-  };
-  EXPECT_EQ(scenes(false), (std::set<std::string>{"mesh", "mesh_on_grid", "torus-knot"}));
-  EXPECT_TRUE(scenes(true).empty()) << "the main chart has rows of its own";
+  const bool has_simd = resolve(SimdTarget::best) != SimdTarget::scalar;
+  for (const lab::CoverageMethod& method : lab::coverage_methods())
+    EXPECT_EQ(forms[std::string(method.info.name)],
+              (method.simd && has_simd ? 2 : 1) * (method.threaded ? 2 : 1))
+        << method.info.name;
 }
 
 TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
@@ -269,17 +180,14 @@ TEST(BenchChoices, AreTheMethodsOfTheChartInEachOfItsScenes) {
   SuiteOptions options;
   options.quick = true;
   Stage stage;
-  std::map<std::string, int> count;
+  int compared = 0;
   for (Row& row : make_suite(options)) {
-    if (!is_choice(row)) continue;
-    const std::string scene = row.name.substr(7, row.name.find('/', 7) - 7);
-    if (row.peer == nullptr) ++count[scene];
-    if (row.peer != nullptr || scene == "sliver") continue;
+    if (!is_choice(row) || row.peer != nullptr || row.name.starts_with("choice/sliver/")) continue;
     stage.compare(row);
     EXPECT_EQ(row.error, "") << row.name;
+    ++compared;
   }
-  EXPECT_EQ(count,
-            (std::map<std::string, int>{{"torus-knot", 8}, {"quads", 8}, {"large", 8}, {"sliver", 8}}));
+  EXPECT_GT(compared, 3);
 }
 
 TEST(BenchPipelines, AreTimedBesideTheExactOne) {

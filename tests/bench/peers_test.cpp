@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
-#include <map>
 #include <stdexcept>
 
 #include "bench/workloads/peers.h"
@@ -17,10 +16,10 @@
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
+#include "lab/coverage_support.h"
 #include "lab/peers/mesa/gl_context.h"
 #include "lab/portable/portable.h"
 #include "message_of.h"
-#include "support.h"
 
 namespace edgewise::bench {
 namespace {
@@ -39,7 +38,7 @@ struct Pictures {
 
   explicit Pictures(std::vector<ScreenTriangle> given) : triangles(std::move(given)) {
     backends().front().make()->draw(triangles, ours.view(), {kNoTriangle});
-    for (int y = 0; y < 64; ++y) theirs.insert(theirs.end(), ours.payload_row(y), ours.payload_row(y) + 64);
+    theirs = lab::payloads_of(ours);
   }
   PeerJudgement judged() const { return judge(ours, theirs, triangles); }
 };
@@ -76,13 +75,22 @@ TEST(PeerJudge, RejectsATriangleThatMissesThePixel) {
   EXPECT_EQ(pictures.judged().depth_ties, 0u);
 }
 
-std::shared_ptr<Workload> workload_of(const std::string& scene, bool fit = false, int subpixel_bits = 8) {
-  const SceneRequest request{320, 180, 0.0f, 0.02};
-  auto workload = std::make_shared<Workload>(request.width, request.height, Cull::back,
-                                             [=] { return tools::load_source(scene, request, fit); });
+std::shared_ptr<Workload> prepared(int width, int height, Cull cull, std::function<tools::Source()> load,
+                                   int subpixel_bits = 8) {
+  auto workload = std::make_shared<Workload>(width, height, cull, std::move(load));
   workload->set_subpixel_bits(subpixel_bits);
   workload->prepare(true);
   return workload;
+}
+
+std::shared_ptr<Workload> workload_of(const std::string& scene, bool fit = false, int subpixel_bits = 8) {
+  const SceneRequest request{320, 180, 0.0f, 0.02};
+  const auto load = [=] { return tools::load_source(scene, request, fit); };
+  return prepared(request.width, request.height, Cull::back, load, subpixel_bits);
+}
+
+std::shared_ptr<Workload> workload_of(const std::string& name, const TriangleStream& stream) {
+  return prepared(stream.width, stream.height, Cull::none, [=] { return tools::Source{name, stream, true}; });
 }
 
 TEST(PeerScene, GivesEachTriangleItsOwnLastVertex) {
@@ -159,12 +167,7 @@ class Mirror final : public PeerFrame {
     }
     backends().back().make()->draw(triangles, frame_.view(), {scene_.background});
   }
-  std::vector<std::uint32_t> read() override {
-    std::vector<std::uint32_t> pixels;
-    for (int y = 0; y < frame_.height(); ++y)
-      pixels.insert(pixels.end(), frame_.payload_row(y), frame_.payload_row(y) + frame_.width());
-    return pixels;
-  }
+  std::vector<std::uint32_t> read() override { return lab::payloads_of(frame_); }
 
  private:
   PeerScene scene_;
@@ -212,35 +215,6 @@ TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
   }
 }
 
-// The benchmark's peers draw our pictures, of hard triangle families and of whole scenes.
-class BuiltPeer : public ::testing::TestWithParam<std::string> {};
-
-// The others reach beyond 8192 px, where llvmpipe clips.
-constexpr std::array<std::string_view, 9> kNearFamilies{
-    "uniform", "slivers", "lattice", "pixel-centres", "grid", "ties", "steep", "cloud", "degenerate"};
-
-std::shared_ptr<Workload> hard_workload(const std::string& family, std::uint64_t seed = 7) {
-  TriangleStream stream{192, 128, {}};
-  for (const ScreenTriangle& t : testing::adversarial(family, 400, stream.width, stream.height, seed)) {
-    StreamTriangle out{{}, t.payload};
-    for (int k = 0; k < 3; ++k)
-      out.vertex[k] = {static_cast<float>(t.x_q15[k]) / kPixel_q15,
-                       static_cast<float>(t.y_q15[k]) / kPixel_q15,
-                       static_cast<float>(t.z[k]) / static_cast<float>(contract::kDepthClear)};
-    stream.triangles.push_back(out);
-  }
-  auto workload = std::make_shared<Workload>(stream.width, stream.height, Cull::none, [=] {
-    return tools::Source{family, stream, true};
-  });
-  workload->prepare(true);
-  return workload;
-}
-
-std::shared_ptr<Workload> named_workload(const std::string& name) {
-  const bool family = std::ranges::find(kNearFamilies, name) != kNearFamilies.end();
-  return family ? hard_workload(name) : workload_of(name);
-}
-
 bool runs_here(const PeerInfo& peer) {
   try {
     peer.version();
@@ -250,19 +224,46 @@ bool runs_here(const PeerInfo& peer) {
   }
 }
 
+class AllPeers : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::ranges::none_of(peers(), runs_here)) GTEST_SKIP() << "no peer runs here";
+  }
+};
+
+// The benchmark's peers draw our pictures, of hard triangle families and of whole scenes.
+class BuiltPeer : public AllPeers, public ::testing::WithParamInterface<std::string> {};
+
+// The others reach beyond 8192 px, where llvmpipe clips.
+constexpr std::array<std::string_view, 9> kNearFamilies{
+    "uniform", "slivers", "lattice", "pixel-centres", "grid", "ties", "steep", "cloud", "degenerate"};
+
+std::shared_ptr<Workload> hard_workload(const std::string& family, std::uint64_t seed = 7) {
+  TriangleStream stream{192, 128, {}};
+  const auto triangles = testing::adversarial(family, 400, stream.width, stream.height, seed);
+  for (const auto& [at, payload] : testing::as_floats(triangles)) {
+    StreamTriangle& out = stream.triangles.emplace_back(StreamTriangle{{}, payload});
+    for (int k = 0; k < 3; ++k) out.vertex[k] = {at.x_px[k], at.y_px[k], at.z01[k]};
+  }
+  return workload_of(family, stream);
+}
+
+std::shared_ptr<Workload> named_workload(const std::string& name) {
+  const bool family = std::ranges::find(kNearFamilies, name) != kNearFamilies.end();
+  return family ? hard_workload(name) : workload_of(name);
+}
+
 TEST_P(BuiltPeer, DrawsOurPictures) {
   const auto workload = named_workload(GetParam());
-  int compared = 0;
   for (const PeerInfo& peer : benchmark_peers()) {
     if (!runs_here(peer)) continue;
-    for (int threads = 1; threads <= peer.most_threads; ++threads, ++compared) {
+    for (int threads = 1; threads <= peer.most_threads; ++threads) {
       PeerStage stage;
       Row row = row_of(peer, workload, threads);
       stage.compare(row);
       EXPECT_EQ(row.error, "") << peer.name << ", threads " << threads;
     }
   }
-  if (compared == 0) GTEST_SKIP() << "no peer runs here";
 }
 
 // Beside NVIDIA's driver, EGL gave its OpenGL when asked for softpipe. The first use was refused, but the
@@ -315,20 +316,17 @@ PortableJudgement judged_portable(const Workload& workload, const PeerInfo& peer
   return judge_portable(workload, frame->read(), subpixel_bits);
 }
 
-// Fails if a peer that runs here differs from us in a portable pixel. Returns the number of such peers.
-int expect_portable(const Workload& workload, const std::string& name) {
-  int compared = 0;
-  for (const PeerInfo& peer : peers()) {
-    if (!runs_here(peer)) continue;
-    EXPECT_EQ(judged_portable(workload, peer, peer.subpixel_bits()).wrong, 0u) << peer.name << ' ' << name;
-    ++compared;
-  }
-  return compared;
+// Fails if a peer that runs here differs from us in a portable pixel.
+void expect_portable(const Workload& workload, const std::string& name) {
+  for (const PeerInfo& peer : peers())
+    if (runs_here(peer)) {
+      EXPECT_EQ(judged_portable(workload, peer, peer.subpixel_bits()).wrong, 0u) << peer.name << ' ' << name;
+    }
 }
 
 // llvmpipe and lavapipe have 8 subpixel bits. softpipe claims 4, and computes edges in floats.
 TEST_P(BuiltPeer, DiffersFromUsOnlyInPixelsThatAreNotPortable) {
-  if (expect_portable(*named_workload(GetParam()), GetParam()) == 0) GTEST_SKIP() << "no peer runs here";
+  expect_portable(*named_workload(GetParam()), GetParam());
 }
 
 // Triangles of every size and distance. About a third of them cross the near or far plane.
@@ -351,59 +349,40 @@ std::shared_ptr<Workload> random_mesh(std::uint64_t seed) {
     mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     mesh.colours.push_back(0);
   }
-  auto workload = std::make_shared<Workload>(192, 128, seed % 2 == 0 ? Cull::none : Cull::back, [=] {
+  return prepared(192, 128, seed % 2 == 0 ? Cull::none : Cull::back, [=] {
     return tools::Source{"random", scene, false};
   });
-  workload->prepare(true);
-  return workload;
 }
 
-TEST(AllPeers, DifferFromUsOnlyInPixelsOfRandomMeshesThatAreNotPortable) {
-  const std::uint64_t meshes = testing::full_size() ? 1000 : 24;
-  int compared = 0;
-  for (std::uint64_t seed = 0; seed < meshes; ++seed)
-    compared += expect_portable(*random_mesh(seed), std::to_string(seed));
-  if (compared == 0) GTEST_SKIP() << "no peer runs here";
-}
-
-TEST(AllPeers, DifferFromUsOnlyInPixelsOfHardTrianglesThatAreNotPortable) {
+TEST_F(AllPeers, DifferFromUsOnlyInPixelsOfRandomTrianglesThatAreNotPortable) {
   const std::size_t scenes = testing::full_size() ? 1000 : 24;
-  int compared = 0;
   for (std::size_t i = 0; i < scenes; ++i) {
     const std::string family(testing::kFamilies[i % testing::kFamilies.size()]);
-    compared += expect_portable(*hard_workload(family, 1000 + i), family + " " + std::to_string(i));
+    expect_portable(*random_mesh(i), std::to_string(i));
+    expect_portable(*hard_workload(family, 1000 + i), family + " " + std::to_string(i));
   }
-  if (compared == 0) GTEST_SKIP() << "no peer runs here";
-}
-
-// Of this one, llvmpipe draws nothing.
-TEST(AllPeers, DifferFromUsOnlyInPixelsThatAreNotPortableBeyondTheGuardBand) {
-  TriangleStream stream{96, 64, {}};
-  stream.triangles.push_back(
+  // Of this one, beyond the guard band, llvmpipe draws nothing.
+  TriangleStream far{96, 64, {}};
+  far.triangles.push_back(
       {{{59.98f, 22.47f, 0.5f}, {-6323.7f, -3842.6f, 0.5f}, {-1129.1f, -2980.9f, 0.5f}}, 1});
-  const auto workload = std::make_shared<Workload>(stream.width, stream.height, Cull::none, [=] {
-    return tools::Source{"far", stream, true};
-  });
-  workload->prepare(true);
-  if (expect_portable(*workload, "far") == 0) GTEST_SKIP() << "no peer runs here";
+  expect_portable(*workload_of("far", far), "far");
 }
 
 // Any .obj files, from the folder that EDGEWISE_MESHES names. The project ships none.
-TEST(AllPeers, DifferFromUsOnlyInPixelsOfYourMeshesThatAreNotPortable) {
+TEST_F(AllPeers, DifferFromUsOnlyInPixelsOfYourMeshesThatAreNotPortable) {
   const char* folder = getenv("EDGEWISE_MESHES");
   if (folder == nullptr) GTEST_SKIP() << "EDGEWISE_MESHES names no folder of .obj files";
-  int meshes = 0, compared = 0;
+  int meshes = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     if (file.path().extension() != ".obj") continue;
     ++meshes;
-    compared += expect_portable(*workload_of(file.path().string(), true), file.path().string());
+    expect_portable(*workload_of(file.path().string(), true), file.path().string());
   }
   ASSERT_GT(meshes, 0) << "no .obj file in " << folder;
-  if (compared == 0) GTEST_SKIP() << "no peer runs here";
 }
 
 // Otherwise the tests above would pass for any mask.
-TEST(AllPeers, ShowAMaskThatIsTooSmall) {
+TEST_F(AllPeers, ShowAMaskThatIsTooSmall) {
   const auto softpipe = std::ranges::find(peers(), "softpipe", &PeerInfo::name);
   if (softpipe == peers().end() || !runs_here(*softpipe))
     GTEST_SKIP() << "softpipe was not built or does not run";
@@ -412,7 +391,7 @@ TEST(AllPeers, ShowAMaskThatIsTooSmall) {
 }
 
 // All are loaded at once.
-TEST(AllPeers, HaveContextsOfTheirOwn) {
+TEST_F(AllPeers, HaveContextsOfTheirOwn) {
   const auto workload = workload_of("medium");
   std::vector<std::pair<const PeerInfo*, std::unique_ptr<PeerFrame>>> frames;
   for (const PeerInfo& peer : peers())
@@ -422,7 +401,6 @@ TEST(AllPeers, HaveContextsOfTheirOwn) {
   for (const auto& [peer, frame] : frames) frame->draw();
   for (const auto& [peer, frame] : frames)
     EXPECT_EQ(judge_portable(*workload, frame->read(), peer->subpixel_bits()).wrong, 0u) << peer->name;
-  if (frames.empty()) GTEST_SKIP() << "no peer runs here";
 }
 
 // lavapipe stands for a GPU.
@@ -451,11 +429,8 @@ std::vector<std::string> compared_names() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BuiltPeer, ::testing::ValuesIn(compared_names()), [](const auto& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, BuiltPeer, ::testing::ValuesIn(compared_names()),
+                         [](const auto& test) { return testing::test_name(test); });
 
 }  // namespace
 }  // namespace edgewise::bench

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "cli/accuracy/accuracy.h"
 #include "edgewise/image.h"
@@ -35,31 +34,16 @@ TEST(AccuracyPictures, ShowEachErrorInItsColour) {
   EXPECT_FALSE(std::filesystem::exists(pictures + "/coverage-drtk_quad-float_top_left.png"));
 }
 
-TEST(AccuracyPictures, IdenticalPicturesAreWrittenOnce) {
-  AccuracyPlan plan;
-  plan.scenes = {"t_junction", "t_junction_split"};
-  plan.pictures = true;
-  plan.family = Family::coverage;
-  std::vector<std::string> names;
-  for (const Closeup& closeup : measure_accuracy(plan).closeups) names.push_back(closeup.name);
-  const auto made = [&](const char* name) { return std::count(names.begin(), names.end(), name); };
-  for (const std::string scene : {"coverage-t_junction-", "coverage-t_junction_split-"}) {
-    EXPECT_EQ(made((scene + "scanline").c_str()), 1) << "one picture per scene";
-    for (const char* same : {"naive", "tiled", "fixed_8"}) EXPECT_EQ(made((scene + same).c_str()), 0) << same;
-  }
-}
-
 // The crack is vermilion. Splitting the edge closes it, since another triangle then covers its pixels.
-TEST(AccuracyPictures, ShowTheTJunctionsCrackAndThatSplittingClosesIt) {
+TEST(AccuracyPictures, ShowTheTJunctionsCrackOnceAndThatSplittingClosesIt) {
   AccuracyPlan plan;
   plan.scenes = {"t_junction", "t_junction_split"};
-  plan.methods = {"scanline"};
+  plan.methods = {"naive", "scanline", "tiled"};
   plan.pictures = true;
   const auto report = measure_accuracy(plan);
-  ASSERT_EQ(report.closeups.size(), 2u);
+  ASSERT_EQ(report.closeups.size(), 2u) << "one picture per scene, since all methods draw the same";
   const auto count = [&](std::size_t scene, lab::Mark mark) {
-    const auto& marks = report.closeups[scene].marks;
-    return std::count(marks.begin(), marks.end(), mark);
+    return std::ranges::count(report.closeups[scene].marks, mark);
   };
   EXPECT_GT(count(0, lab::Mark::gap), 40);
   EXPECT_EQ(count(1, lab::Mark::gap), 0);
@@ -74,12 +58,9 @@ TEST(AccuracyPictures, AreOfCoverageAndClipping) {
   std::set<std::string> families;
   for (const Closeup& closeup : measure_accuracy(plan).closeups) {
     families.insert(closeup.name.substr(0, closeup.name.find('-')));
-    EXPECT_TRUE(std::any_of(closeup.marks.begin(), closeup.marks.end(), [](lab::Mark mark) {
-      return mark != lab::Mark::none;
-    })) << closeup.name;
+    EXPECT_LT(std::ranges::count(closeup.marks, lab::Mark::none), std::ssize(closeup.marks)) << closeup.name;
     const Image image = draw(closeup);
     EXPECT_LE(std::max(image.width, image.height), 1000) << closeup.name;
-    EXPECT_GE(std::max(image.width, image.height), 200) << closeup.name;
   }
   EXPECT_EQ(families, (std::set<std::string>{"clipping", "coverage"}));
 }

@@ -13,6 +13,16 @@ inline RenderPass pass_of(const FramePart& part) {
   return {part.background, part.clear, {part.x0, part.y0}};
 }
 
+// Draws by kDraw(right backend, triangles, part, execution).
+template <auto kDraw>
+class DrawnBy : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, const FramePart& part,
+                    const Execution& execution) override {
+    kDraw(*right_, triangles, part, execution);
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
 // Draws the right picture, and then calls kSpoil(frame, background, execution).
 template <auto kSpoil>
 class Spoiled : public Backend {

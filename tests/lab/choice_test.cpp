@@ -51,13 +51,6 @@ TEST(Choice, CountsASquareWithCornersOnPixelCentresAsPredicted) {
     EXPECT_EQ(counts.at(method).wrong, 0u) << method;
 }
 
-TEST(Choice, AnOutlineThatMovesIsNoHole) {
-  const auto counts = counts_of(square(2.51f, 10.51f), kSize);
-  EXPECT_EQ(counts.at("fixed_4").wrong, 2 * (64u - 49)) << "rounded to 2.5 and 10.5";
-  EXPECT_EQ(counts.at("fixed_4").holes, 0u);
-  EXPECT_EQ(counts.at("tiled_15").wrong, 0u);
-}
-
 // By doubles, at positions where these decide every sample.
 std::uint32_t seen(const TriangleStream& stream, int x, int y) {
   std::uint32_t visible = 0;
@@ -100,28 +93,6 @@ TEST(Choice, CountsTheSameAsBruteForceByDoubles) {
   }
   EXPECT_GT(most, 0u);
   EXPECT_FALSE(judge.of_float_projection(1)) << "a stream's floats are not projected";
-}
-
-TEST(Choice, EachSceneMovesAndSeparatesTheMethods) {
-  for (const ChoiceScene& scene : choice_scenes(true)) {
-    const Drawable first = scene.make(0), last = scene.make(scene.frames - 1);
-    const auto counts = counts_of(last, scene.size);
-    EXPECT_LE(counts.at("tiled_15").wrong, counts.at("tiled_8").wrong) << scene.name;
-    EXPECT_EQ(counts.at("tiled_15").holes, 0u) << scene.name;
-    if (scene.name == "quads") {
-      for (const auto& [name, count] : counts)
-        EXPECT_EQ(count.wrong != 0, name == "float_lt" || name == "float_le") << name;
-      EXPECT_GT(counts.at("float_lt").holes, 0u);
-    } else {
-      EXPECT_LT(counts.at("tiled_8").wrong, counts.at("fixed_4").wrong) << scene.name;
-      EXPECT_LT(counts.at("tiled_15").wrong, counts.at("tiled_8").wrong) << scene.name;
-    }
-    FrameDrawer one(scene.size), other(scene.size);
-    one.draw(first, methods().front(), Payload::id), other.draw(last, methods().front(), Payload::id);
-    EXPECT_FALSE(same_picture(*methods().front().method, one.canvas(), other.canvas())) << scene.name;
-    EXPECT_EQ(ChoiceJudge(last, scene.size, 1).of_float_projection(1).has_value(),
-              scene.name == "torus-knot");
-  }
 }
 
 }  // namespace

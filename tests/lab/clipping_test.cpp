@@ -9,9 +9,8 @@
 #include <map>
 
 #include "lab/cases/backend_comparison.h"
-#include "lab/coverage/score.h"
-#include "lab/lab_support.h"
 #include "lab/portable/portable.h"
+#include "lab/stage_methods.h"
 #include "lab/truth/truth.h"
 #include "lab/view_space.h"
 #include "message_of.h"
@@ -19,11 +18,9 @@
 namespace edgewise::lab {
 namespace {
 
-const ClippingMethod& method(std::string_view name) {
-  return method_named(clipping_methods(), name);
-}
+constexpr auto& method = find_clipping_method;
 ClippingScene make_case(std::string_view name) {
-  return make_case_named(clipping_cases(), name);
+  return std::ranges::find(clipping_cases(), name, &ClippingCase::name)->make();
 }
 ClippingScore judge(std::string_view name, const ClippingScene& scene) {
   return score(method(name), scene, clipping_truth(scene));
@@ -66,68 +63,6 @@ TEST(Clipping, APictureIsCorrectedWhereItDiffersBeyondHairline) {
   const std::uint64_t replaced = correct(corrected, scene.size, *truth.oracle, 2);
   EXPECT_LE(replaced, count);
   EXPECT_GE(replaced, count * 9 / 10);
-}
-
-TEST(Clipping, AFloorUnderTheCameraNeedsClipping) {
-  for (const float near_z : {0.5f, 0.1f, 0.001f}) {
-    const ClippingScene scene = floor_through_eye(near_z);
-    EXPECT_EQ(judge("near_guard", scene).wrong(), 0u);
-    EXPECT_GT(judge("discard_behind", scene).missing, 500u);
-    const auto divided = judge("none", scene);
-    EXPECT_GT(divided.missing + divided.extra + divided.wrong_triangle, 500u);
-  }
-}
-
-TEST(Clipping, QuadsNearerThanTheNearPlaneAreNotDrawn) {
-  const ClippingScene scene = make_case("quads_before_near");
-  const auto truth = clipping_truth(scene);
-  EXPECT_TRUE(std::all_of(truth.visible.begin(), truth.visible.end(),
-                          [](auto triangle) { return triangle < 2 || triangle == kNoTriangle; }));
-  for (const auto name : {"near_guard", "screen_edges", "discard_behind"})
-    EXPECT_EQ(score(method(name), scene, truth).wrong(), 0u) << name;
-  for (const auto name : {"near_too_near", "none"})
-    EXPECT_GT(score(method(name), scene, truth).wrong_triangle, 100u) << name;
-}
-
-// The pixels in which a method differs from ours, which does not clip at the screen's edges.
-struct Moved {
-  std::uint64_t pixels = 0;
-  int longest_run = 0;  // along a row
-};
-Moved moved(std::string_view name, const ClippingScene& scene) {
-  ClippingFrame frame(scene.size), ours(scene.size);
-  method(name).draw(scene, frame);
-  method("near_guard").draw(scene, ours);
-  Moved found;
-  for (int y = 0; y < scene.size.height; ++y)
-    for (int x = 0, run = 0; x < scene.size.width; ++x) {
-      run = frame.picture.payload_row(y)[x] != ours.picture.payload_row(y)[x] ? run + 1 : 0;
-      found.pixels += run > 0;
-      found.longest_run = std::max(found.longest_run, run);
-    }
-  return found;
-}
-
-std::uint64_t crossings(const ClippingScene& scene) {
-  Frontend frontend;
-  const auto triangles = frontend.run(
-      scene.scene,
-      {.width = scene.size.width, .height = scene.size.height, .cull = Cull::none, .keep_unsnapped = true});
-  return edge_crossings(unsnapped(triangles, frontend.unsnapped()), {scene.size.width, scene.size.height});
-}
-
-// The scene's vertices lie on the 1/256 px grid, so ours moves no vertex.
-TEST(Clipping, ClippingAtTheScreenAndSnappingAgainMovesEdges) {
-  const ClippingScene scene = make_case("along_the_rows");
-  const auto truth = clipping_truth(scene);
-  const Moved found = moved("screen_edges", scene);
-  EXPECT_GT(found.pixels, 200u);
-  EXPECT_GT(1e6 * static_cast<double>(found.pixels) / static_cast<double>(crossings(scene)), 50'000);
-  EXPECT_GE(found.longest_run, 16);
-  EXPECT_LT(score(method("near_guard"), scene, truth).hairline, found.pixels / 4);
-  const auto s = score(method("screen_edges"), scene, truth);
-  EXPECT_EQ(s.wrong(), 0u) << "each by less than 1/64 px";
-  EXPECT_GT(s.hairline, found.pixels / 2);
 }
 
 // Floats move an edge if both its ends are far beyond the method's reach, and the promise excludes such
@@ -187,14 +122,6 @@ TEST(Clipping, TrianglesClippedInEveryDirectionKeepTheirWinding) {
       const auto s = score(method("near_guard"), scene, truth);
       EXPECT_EQ(s.covered > 20, !reversed) << direction;
       EXPECT_EQ(s.wrong(), 0u) << direction << (reversed ? " reversed" : "");
-      if (reversed) {
-        ClippingFrame frame(scene.size);
-        method("near_guard").draw(scene, frame);
-        for (int y = 0; y < scene.size.height; ++y)
-          EXPECT_TRUE(std::all_of(frame.picture.payload_row(y),
-                                  frame.picture.payload_row(y) + scene.size.width,
-                                  [](auto triangle) { return triangle == kNoTriangle; }));
-      }
     }
 }
 

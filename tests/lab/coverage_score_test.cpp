@@ -83,10 +83,11 @@ TEST(Differences, AreHitsOfOnlyOneList) {
       for (int x = run.x0; x < run.x1; ++x)
         ASSERT_TRUE((is_missing ? missing : extra).insert({run.triangle, x, run.y}).second);
     });
-    for (const Hit& hit : in_truth) ASSERT_EQ(missing.count(hit), 1u - in_drawn.count(hit));
-    for (const Hit& hit : in_drawn) ASSERT_EQ(extra.count(hit), 1u - in_truth.count(hit));
-    for (const Hit& hit : missing) ASSERT_EQ(in_truth.count(hit), 1u);
-    for (const Hit& hit : extra) ASSERT_EQ(in_drawn.count(hit), 1u);
+    std::set<Hit> only_truth, only_drawn;
+    std::ranges::set_difference(in_truth, in_drawn, std::inserter(only_truth, only_truth.end()));
+    std::ranges::set_difference(in_drawn, in_truth, std::inserter(only_drawn, only_drawn.end()));
+    ASSERT_EQ(missing, only_truth);
+    ASSERT_EQ(extra, only_drawn);
   }
 }
 
@@ -105,34 +106,25 @@ TEST(PixelChanges, AreSuperfluousIfThePixelChangesOftenerAndNotOnlyEarlierOrLate
 }
 
 TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
-  const auto triangles = adversarial("cloud", 400, 80, 60, 15);
-  std::set<std::uint32_t> seen;
-  for (const auto& set : disjoint_sets(triangles, 80, 60)) {
-    std::vector<int> used(80 * 60, 0);
-    for (const std::uint32_t i : set) {
-      EXPECT_TRUE(seen.insert(i).second);
-      const auto box = contract::pixel_box(triangles[i], 80, 60);
-      for (int y = box.y0; y < box.y1; ++y)
-        for (int x = box.x0; x < box.x1; ++x) EXPECT_EQ(used[static_cast<std::size_t>(y * 80 + x)]++, 0);
+  constexpr int kWidth = 80, kHeight = 60;
+  const auto triangles = adversarial("cloud", 400, kWidth, kHeight, 15);
+  for (const int margin : {0, 1}) {
+    std::set<std::uint32_t> seen;
+    const auto groups = disjoint_sets(triangles, kWidth, kHeight, margin);
+    EXPECT_LT(groups.size(), triangles.size() / 2);
+    for (const auto& group : groups) {
+      std::set<std::pair<int, int>> used;
+      for (const std::uint32_t i : group) {
+        EXPECT_TRUE(seen.insert(i).second);
+        const auto box = contract::pixel_box(triangles[i], kWidth, kHeight);
+        for (int y = std::max(box.y0 - margin, 0); y < std::min(box.y1 + margin, kHeight); ++y)
+          for (int x = std::max(box.x0 - margin, 0); x < std::min(box.x1 + margin, kWidth); ++x)
+            EXPECT_TRUE(used.insert({x, y}).second);
+      }
     }
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+      EXPECT_EQ(seen.count(i) == 0, contract::pixel_box(triangles[i], kWidth, kHeight).empty());
   }
-  for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    EXPECT_EQ(seen.count(i) == 0, contract::pixel_box(triangles[i], 80, 60).empty());
-}
-
-TEST(DisjointGroups, AreAsFewAsTheDeepestOverlapOfBoxes) {
-  const auto square_at = [](int x) {
-    using contract::kPixel_q15;
-    return ScreenTriangle{
-        {x * kPixel_q15, (x + 8) * kPixel_q15, x * kPixel_q15}, {0, 0, 8 * kPixel_q15}, {1, 1, 1}, 0};
-  };
-  std::vector<ScreenTriangle> triangles(200, square_at(0));
-  for (int i = 1; i < 200; ++i) triangles.push_back(square_at(9 * i));
-  EXPECT_EQ(disjoint_sets(triangles, 2000, 8).size(), 200u);
-  const std::span<const ScreenTriangle> row = std::span(triangles).last(199);
-  EXPECT_EQ(disjoint_sets(row, 2000, 8).size(), 1u);
-  EXPECT_EQ(disjoint_sets(row, 2000, 8, 1).size(), 2u)
-      << "one pixel apart, with a margin of one on each side";
 }
 
 }  // namespace

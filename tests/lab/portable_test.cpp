@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "edgewise/builtin.h"
+#include "lab/coverage_support.h"
 #include "lab/truth/truth.h"
 #include "lab/view_space.h"
 #include "message_of.h"
-#include "support.h"
 
 namespace edgewise::lab {
 namespace {
@@ -35,12 +34,9 @@ PortablePixels judged(const std::vector<PortableTriangle>& triangles, const Conf
   return portable_pixels(triangles, kWidth, kHeight, model, 2);
 }
 
-TEST(Portable, AgreesWhereNoEdgePasses) {
+TEST(Portable, FindsSamplesThatAnEdgeMayReach) {
   EXPECT_EQ(count(judged({}), Unstable::no), 1u * kWidth * kHeight);
   EXPECT_EQ(count(judged({wall(0.5f, 0)}), Unstable::no), 1u * kWidth * kHeight);
-}
-
-TEST(Portable, FindsSamplesThatAnEdgeMayReach) {
   // A vertical edge this far to the right of a column of samples.
   const auto with_edge = [](float beyond_px) {
     return std::vector{triangle({20.5f + beyond_px, 20.5f + beyond_px, -400}, {-300, 300, 0}, 0.5f, 0)};
@@ -48,10 +44,10 @@ TEST(Portable, FindsSamplesThatAnEdgeMayReach) {
   constexpr float kStep = 1.0f / 256;
   EXPECT_EQ(count(judged(with_edge(0)), Unstable::tie), 1u * kHeight);
   EXPECT_EQ(count(judged(with_edge(0)), Unstable::no), 1u * kHeight * (kWidth - 1));
-  EXPECT_EQ(count(judged(with_edge(0.9f * kStep)), Unstable::edge), 1u * kHeight);
-  EXPECT_EQ(count(judged(with_edge(-0.9f * kStep)), Unstable::edge), 1u * kHeight);
-  EXPECT_EQ(count(judged(with_edge(1.1f * kStep)), Unstable::no), 1u * kHeight * kWidth);
-  EXPECT_EQ(count(judged(with_edge(-1.1f * kStep)), Unstable::no), 1u * kHeight * kWidth);
+  for (const float side : {-kStep, kStep}) {
+    EXPECT_EQ(count(judged(with_edge(0.9f * side)), Unstable::edge), 1u * kHeight);
+    EXPECT_EQ(count(judged(with_edge(1.1f * side)), Unstable::no), 1u * kHeight * kWidth);
+  }
   EXPECT_EQ(count(judged(with_edge(1.1f * kStep), {.subpixel_bits = 7}), Unstable::edge), 1u * kHeight);
   EXPECT_EQ(count(judged(with_edge(1.1f * kStep), {.transform_ulps = 250}), Unstable::edge), 1u * kHeight);
 
@@ -67,13 +63,11 @@ TEST(Portable, FindsSamplesThatAnEdgeMayReach) {
 }
 
 TEST(Portable, PromisesNoSampleOfATriangleBeyondTheGuardBand) {
-  const auto clipped_px = [](float reach_px, float wall_z) {
+  for (const float reach_px : {1000.0f, 1001.0f}) {
     const PortableTriangle far = triangle({1.5f, 40.5f, -reach_px}, {0, 20, 0}, 0.5f, 0);
-    return count(judged({far, wall(wall_z, 1)}, {.guard_band_px = 1000}), Unstable::clip);
-  };
-  EXPECT_EQ(clipped_px(1000, 0.75f), 0u);
-  EXPECT_GT(clipped_px(1001, 0.75f), 100u);
-  EXPECT_EQ(clipped_px(1001, 0.25f), 0u) << "occluded";
+    const PortablePixels found = judged({far, wall(0.75f, 1)}, {.guard_band_px = 1000});
+    EXPECT_EQ(count(found, Unstable::clip) > 100, reach_px > 1000);
+  }
 }
 
 TEST(Portable, FindsDepthsThatRoundingMayReverse) {
@@ -86,10 +80,7 @@ TEST(Portable, FindsDepthsThatRoundingMayReverse) {
   EXPECT_EQ(near_gap(0x1p-18, {}), 0u);
   EXPECT_EQ(near_gap(0x1p-17, coarse), 1u * kWidth * kHeight);
   EXPECT_EQ(near_gap(0x1p-14, coarse), 0u);
-}
-
-TEST(Portable, FindsDepthsThatRoundToTheClearValue) {
-  const Conformance coarse{.depth = find_depth_format("d16_unorm")};
+  // Depths that round to the clear value.
   EXPECT_EQ(count(judged({wall(1.0f - 0x1p-18f, 0)}, coarse), Unstable::depth), 1u * kWidth * kHeight);
   EXPECT_EQ(count(judged({wall(1.0f - 0x1p-14f, 0)}, coarse), Unstable::depth), 0u);
   EXPECT_EQ(count(judged({wall(1.0f, 0)}), Unstable::depth), 1u * kWidth * kHeight);
@@ -105,13 +96,13 @@ TEST(Portable, DoesNotTrustTheDepthsOfSlivers) {
       << "a level plane has no slope to magnify";
 }
 
+Scene scene_of(std::vector<glm::vec3> corners, const Camera& camera) {
+  return {.meshes = {{std::move(corners), {{0, 1, 2}}, {0}}}, .instances = {{}}, .camera = camera};
+}
+
 TEST(Portable, WidensTheBoundsOfVerticesThatClippingMade) {
-  Scene scene;
-  scene.instances.resize(1);
-  scene.camera.near_z = 0.5f;
-  scene.meshes.push_back({{{-1, -1, 2}, {1, -1, -8}, {-1, 1, -8}}, {{0, 2, 1}}, {rgb(1, 2, 3)}});
-  FrontendOptions options{320, 180, Cull::none};
-  const auto pieces = portable_triangles(scene, options);
+  const auto pieces = portable_triangles(scene_of({{-1, -1, 2}, {1, -1, -8}, {-1, 1, -8}}, {.near_z = 0.5f}),
+                                         {320, 180, Cull::none});
   ASSERT_FALSE(pieces.empty());
   for (const PortableTriangle& piece : pieces) {
     EXPECT_TRUE(piece.clipped);
@@ -131,11 +122,9 @@ TEST(Portable, AllowsTheClippingOfTrianglesThatTouchTheNearOrFarPlane) {
     EXPECT_EQ(triangles[0].position_error_px > 0.0, z != 0.5f) << z;
   }
   // For w = 41, z / w is less than 1 where z is w.
-  Scene scene;
-  scene.instances.resize(1);
-  scene.camera = {.position = {0, 0, 41}, .near_z = 1.0f, .far_z = 41.0f};
-  scene.meshes.push_back({{{-9, -9, 0}, {9, -9, 9}, {-9, 9, 9}}, {{0, 1, 2}}, {rgb(1, 2, 3)}});
-  const auto triangles = portable_triangles(scene, {320, 180, Cull::none});
+  const auto triangles = portable_triangles(
+      scene_of({{-9, -9, 0}, {9, -9, 9}, {-9, 9, 9}}, {.position = {0, 0, 41}, .near_z = 1, .far_z = 41}),
+      {320, 180, Cull::none});
   ASSERT_EQ(triangles.size(), 1u);
   EXPECT_TRUE(triangles[0].clipped) << triangles[0].at.z01[0];
 }
@@ -151,12 +140,10 @@ TEST(Portable, CountsCulledTrianglesOnlyIfRoundingMayTurnThem) {
 }
 
 TEST(Portable, RejectsWhatIsOutOfRange) {
-  EXPECT_EQ(message_of([] { find_depth_format("d24"); }),
-            "unknown depth format 'd24'; did you mean 'd24_unorm'? (known: d16_unorm d24_unorm d32_sfloat)");
+  EXPECT_NE(message_of([] { find_depth_format("d24"); }), "");
   EXPECT_NE(message_of([] { portable_pixels({}, 0, 1, {}, 1); }), "");
   for (const int bits : {0, 16})
-    EXPECT_EQ(message_of([&] { portable_pixels({}, 1, 1, {.subpixel_bits = bits}, 1); }),
-              "subpixel bits must be 1 to 15, the most that the library draws");
+    EXPECT_NE(message_of([&] { portable_pixels({}, 1, 1, {.subpixel_bits = bits}, 1); }), "");
   EXPECT_NE(message_of([] { portable_pixels({}, 1, 1, {.transform_ulps = -1}, 1); }), "");
   EXPECT_NE(message_of([] { judged({triangle({0, 0x1p21f, 0}, {0, 0, 9}, 0.5f, 0)}); }), "");
 }
@@ -180,12 +167,11 @@ struct FloatPlane {
 // depth by less than the error of a float z / w, evaluates depth planes in floats, rounds to the format, and
 // clears to 1. Of float depth buffers, every second one is reversed.
 std::vector<std::uint32_t> drawn_by_a_witness(const std::vector<PortableTriangle>& triangles, double step_px,
-                                              const DepthFormat& format, std::uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> error(-1.0, 1.0);
+                                              const DepthFormat& format, std::uint64_t seed) {
+  Random random(seed);
   // Most errors have the largest allowed size: these reveal a mask that is too small.
   const auto moved = [&](float value, double largest) {
-    const double share = error(random);
+    const double share = random.uniform(-1.0f, 1.0f);
     return static_cast<float>(double{value} +
                               largest * (std::abs(share) > 0.5 ? std::copysign(0.999, share) : share));
   };
@@ -215,27 +201,20 @@ std::vector<std::uint32_t> drawn_by_a_witness(const std::vector<PortableTriangle
   return visible;
 }
 
-// Small and large triangles, some with vertices on a coarse grid, so that edges run through samples. Every
-// fifth depth is that of a neighbour.
-std::vector<PortableTriangle> random_triangles(std::uint32_t seed) {
-  std::mt19937 random(seed);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
+// Small and large triangles, some with vertices on or beside pixel centres and corners. Slopes are small, and
+// every fifth depth is that of a neighbour.
+std::vector<PortableTriangle> random_triangles(std::uint64_t seed) {
+  Random random(seed);
+  constexpr std::string_view kFamilies[] = {"anywhere", "small", "near-centres", "near-lattice"};
+  const auto family = kFamilies[seed % std::size(kFamilies)];
+  const int count = 2 + static_cast<int>(random.below(30));
   std::vector<PortableTriangle> triangles;
-  const int n = static_cast<int>(random() % 30) + 2;
-  for (int i = 0; i < n; ++i) {
-    const double reach = std::exp(uniform(0.0, 4.0)), cx = uniform(0, kWidth), cy = uniform(0, kHeight);
-    const double grid = random() % 2 == 0 ? 2.0 : 1024.0, z = uniform(0.1, 0.9);
-    PortableTriangle t{{}, static_cast<std::uint32_t>(i), true, false};
-    for (int k = 0; k < 3; ++k) {
-      t.at.x_px[k] = static_cast<float>(std::round((cx + uniform(-reach, reach)) * grid) / grid);
-      t.at.y_px[k] = static_cast<float>(std::round((cy + uniform(-reach, reach)) * grid) / grid);
-      t.at.z01[k] = static_cast<float>(z + (random() % 2 == 0 ? uniform(-0.05, 0.05) : 0.0));
-    }
-    if (random() % 8 == 0) std::fill_n(t.at.z01, 3, static_cast<float>(1.0 - uniform(0.0, 0x1p-22)));
-    if (i > 0 && random() % 5 == 0) std::copy_n(triangles.back().at.z01, 3, t.at.z01);
-    triangles.push_back(t);
+  for (const FloatTriangle& t : testing::hard_floats(family, count, {kWidth, kHeight}, seed)) {
+    const auto id = static_cast<std::uint32_t>(triangles.size());
+    PortableTriangle& made = triangles.emplace_back(PortableTriangle{t.at, id, true, false});
+    for (float& z : made.at.z01) z = 0.1f + 0.7f * t.at.z01[0] + 0.1f * z;
+    if (random.below(8) == 0) std::fill_n(made.at.z01, 3, 1.0f - random.uniform(0.0f, 0x1p-22f));
+    if (id > 0 && random.below(5) == 0) std::copy_n(triangles[id - 1].at.z01, 3, made.at.z01);
   }
   return triangles;
 }
@@ -244,16 +223,14 @@ struct Disagreement {
   std::uint64_t inside = 0, outside = 0;  // of the mask, px
 };
 
-Disagreement witnesses_disagree(int bits, const Conformance& model, int scenes) {
+Disagreement witnesses_disagree(int bits, const Conformance& model, std::uint64_t scenes) {
   Disagreement result;
-  for (int seed = 0; seed < scenes; ++seed) {
-    const auto triangles = random_triangles(static_cast<std::uint32_t>(seed));
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    const auto triangles = random_triangles(seed);
     const PortablePixels mask = portable_pixels(triangles, kWidth, kHeight, model, 1);
     const double step_px = std::ldexp(1.0, -bits);
-    const auto first =
-        drawn_by_a_witness(triangles, step_px, model.depth, static_cast<std::uint32_t>(2 * seed));
-    const auto second =
-        drawn_by_a_witness(triangles, step_px, model.depth, static_cast<std::uint32_t>(2 * seed + 1));
+    const auto first = drawn_by_a_witness(triangles, step_px, model.depth, 2 * seed);
+    const auto second = drawn_by_a_witness(triangles, step_px, model.depth, 2 * seed + 1);
     for (std::size_t i = 0; i < first.size(); ++i)
       if (first[i] != second[i]) ++(mask.reasons[i] == Unstable::no ? result.outside : result.inside);
   }
@@ -261,7 +238,7 @@ Disagreement witnesses_disagree(int bits, const Conformance& model, int scenes) 
 }
 
 TEST(Portable, NoTwoConformantRasterizersDifferOutsideTheMask) {
-  const int scenes = testing::full_size() ? 10'000 : 300;
+  const std::uint64_t scenes = testing::full_size() ? 10'000 : 300;
   for (const int bits : {4, 8, 12})
     for (const DepthFormat& format : depth_formats()) {
       const Disagreement found = witnesses_disagree(bits, {.subpixel_bits = bits, .depth = format}, scenes);

@@ -63,25 +63,18 @@ TEST(FloatTruth, AgreesWithTheSnappedTruthOnTheGrid) {
   }
 }
 
-TEST(FloatTruth, FindsTheFacingOfTrianglesThatDoublesCannotJudge) {
-  const auto facing = [](float x, float y) {
-    return FloatTruth({{0.0f, 3000.0f, x}, {0.0f, 3000.0f, y}, {0, 0, 0}}).facing();
-  };
-  EXPECT_EQ(facing(1e-40f, 1e-40f), 0);
-  EXPECT_EQ(facing(1e-40f, 2e-40f), 1);
-  EXPECT_EQ(facing(2e-40f, 1e-40f), -1);
+FloatTruth truth_of(const FloatTriangle& t) {
+  return FloatTruth(t.at);
+}
+SnappedTruth truth_of(const ScreenTriangle& t) {
+  return SnappedTruth(t);
 }
 
-template <typename Truth, typename Triangle>
-void expect_runs_of(std::span<const Triangle> triangles, Window window, const std::string& what) {
+template <typename Triangle>
+void expect_runs_of(const std::vector<Triangle>& triangles, Window window, const std::string& what) {
   std::vector<Run> expected;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Truth truth = [&] {
-      if constexpr (std::is_same_v<Truth, FloatTruth>)
-        return FloatTruth(triangles[i].at);
-      else
-        return SnappedTruth(triangles[i]);
-    }();
+    const auto truth = truth_of(triangles[i]);
     for (int y = window.y0; y < window.y1(); ++y)
       for (int x = window.x0; x < window.x1(); ++x) {
         if (!truth.covers(x, y)) continue;
@@ -92,25 +85,18 @@ void expect_runs_of(std::span<const Triangle> triangles, Window window, const st
           expected.push_back({static_cast<std::uint32_t>(i), y, x, x + 1});
       }
   }
-  for (const int threads : {1, 2}) EXPECT_EQ(covered_runs(triangles, window, threads), expected) << what;
+  for (const int threads : {1, 2})
+    EXPECT_EQ(covered_runs(std::span<const Triangle>(triangles), window, threads), expected) << what;
 }
 
 TEST(CoveredRuns, HoldThePixelsThatTheTruthsCover) {
   for (const Window window : {Window{40, 30}, {17, 23, 60, 300}}) {
-    for (const auto family : testing::kFloatFamilies) {
-      const auto floats = hard_floats(family, 120, window, 9);
-      expect_runs_of<FloatTruth>(std::span(floats), window, std::string(family));
-    }
-    for (const auto family : testing::kFamilies) {
-      const auto snapped = adversarial(family, 120, window.x1(), window.y1(), 10);
-      expect_runs_of<SnappedTruth>(std::span(snapped), window, std::string(family));
-    }
+    for (const auto family : testing::kFloatFamilies)
+      expect_runs_of(hard_floats(family, 120, window, 9), window, std::string(family));
+    for (const auto family : testing::kFamilies)
+      expect_runs_of(adversarial(family, 120, window.x1(), window.y1(), 10), window, std::string(family));
   }
-}
-
-TEST(CoveredRuns, HoldThePixelsOfManyTrianglesInOrder) {
-  const auto triangles = adversarial("cloud", 5'000, 60, 60, 1);
-  expect_runs_of<SnappedTruth>(std::span(triangles), {60, 60}, "more than one chunk");
+  expect_runs_of(adversarial("cloud", 5'000, 60, 60, 1), {60, 60}, "more than one chunk");
 }
 
 // |value - exact| <= error.
@@ -167,11 +153,12 @@ TEST(Depth, EstimatesHoldTheExactDepthAndEqualItAtVertices) {
               mpq_class(double{at.z01[i]}));
 }
 
-template <typename Triangle, typename TruthOf>
-void expect_visible_triangles(std::span<const Triangle> triangles, Window window, TruthOf&& truth_of,
+template <typename Triangle>
+void expect_visible_triangles(const std::vector<Triangle>& triangles, Window window,
                               const std::string& what) {
   for (const int threads : {1, 2}) {
-    const VisibleTriangles visible = exact_visible_triangles(triangles, window, threads);
+    const VisibleTriangles visible =
+        exact_visible_triangles(std::span<const Triangle>(triangles), window, threads);
     std::size_t at = 0;
     for (int y = window.y0; y < window.y1(); ++y)
       for (int x = window.x0; x < window.x1(); ++x, ++at) {
@@ -199,16 +186,10 @@ TEST(VisibleTriangles, AreTheNearestByRationals) {
   for (const auto family : {"anywhere", "near-centres", "slivers", "small"}) {
     auto floats = hard_floats(family, 30, window, 14);
     floats.push_back(floats[3]);  // a depth tie at every pixel
-    expect_visible_triangles(
-        std::span<const FloatTriangle>(floats), window,
-        [](const FloatTriangle& t) { return FloatTruth(t.at); }, family);
+    expect_visible_triangles(floats, window, family);
   }
-  for (const auto family : {"uniform", "ties", "slivers", "steep"}) {
-    const auto snapped = adversarial(family, 30, 24, 40, 15);
-    expect_visible_triangles(
-        std::span<const ScreenTriangle>(snapped), window,
-        [](const ScreenTriangle& t) { return SnappedTruth(t); }, family);
-  }
+  for (const auto family : {"uniform", "ties", "slivers", "steep"})
+    expect_visible_triangles(adversarial(family, 30, 24, 40, 15), window, family);
 }
 
 }  // namespace

@@ -59,14 +59,6 @@ TEST(WithCamera, ShowsWhatTheMatricesShow) {
   }
 }
 
-TEST(WithCamera, LeavesACameraAlone) {
-  Scene scene = two_instances();
-  scene.camera.yaw = 0.25f;
-  const Drawable seen = with_camera(scene, kSize);
-  EXPECT_EQ(std::get<Scene>(seen).camera.yaw, 0.25f);
-  EXPECT_EQ(std::get<Scene>(seen).instances[0].translation, scene.instances[0].translation);
-}
-
 TEST(WithCamera, RefusesAParallelProjection) {
   Scene scene = two_instances();
   scene.matrices = {glm::dmat4(1.0), orthographic_projection(-1, 1, -1, 1, 0, 10)};

@@ -1,7 +1,6 @@
 // Checks every coverage method against its promise, and its SIMD forms against its scalar one.
 #include <gtest/gtest.h>
 
-#include <set>
 #include <stdexcept>
 
 #include "lab/coverage/coverage.h"
@@ -13,7 +12,6 @@ namespace edgewise::lab {
 namespace {
 
 using testing::adversarial;
-using testing::against_floats;
 using testing::drawn_by;
 using testing::find_coverage_method;
 using testing::hard_floats;
@@ -30,6 +28,10 @@ std::vector<std::string_view> names_of(std::span<const CoverageMethod> methods) 
   std::vector<std::string_view> names;
   for (const CoverageMethod& method : methods) names.push_back(method.info.name);
   return names;
+}
+
+std::string text_of(const auto& size) {
+  return " in " + std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 class EveryCoverageMethod : public ::testing::TestWithParam<std::string_view> {
@@ -50,12 +52,7 @@ TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReach) {
   for (const Window window : {Window{120, 90}, {64, 48, 4020, 4030}, {4096, 3, 0, 50}, {3, 4096, 4000, 0}})
     for (const auto family : testing::kFloatFamilies)
       for (const std::uint64_t seed : {1u, 2u})
-        expect_reach(hard_floats(family, 60, window, seed), window,
-                     std::string(family) + " in " + std::to_string(window.width) + "x" +
-                         std::to_string(window.height));
-}
-
-TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReachOnTheGrid) {
+        expect_reach(hard_floats(family, 60, window, seed), window, std::string(family) + text_of(window));
   for (const auto family : testing::kFamilies)
     expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
 }
@@ -157,34 +154,10 @@ TEST_P(EveryCoverageMethod, DrawsTheNearestTriangleThatItCovers) {
     }
 }
 
-TEST_P(EveryCoverageMethod, DrawsTheSameFarFromTheOriginIfNothingIsRounded) {
-  // No edge of the square touches a sample. Every coordinate and product is exact in every method.
-  const auto square = [](float x, float y) {
-    std::vector<FloatTriangle> list(
-        2, {{{x + 8, x + 16, x + 16}, {y + 8, y + 8, y + 16}, {0.5f, 0.5f, 0.5f}}, 1});
-    list[1].at.x_px[1] = x + 8, list[1].at.y_px[1] = y + 16;
-    return list;
-  };
-  const Picture near(square(0, 0), {16, 16}), far(square(28672, 20480), {16, 16, 28672, 20480});
-  const CoverageScore score = score_coverage(near.by_grid, drawn_by(method_, near), near.floats);
-  EXPECT_EQ(score_coverage(far.by_grid, drawn_by(method_, far), far.floats), score);
-  EXPECT_EQ(far.by_grid.covered, 64u);
-}
-
-TEST_P(EveryCoverageMethod, IsDescribed) {
-  for (const auto text : {method_.info.name, method_.info.summary, method_.info.source, method_.info.promise})
-    EXPECT_FALSE(text.empty());
-}
-
-INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(names_of(coverage_methods())),
-                         [](const auto& param) { return testing::test_name(param); });
-
 // ---- The same pixels and depths with every SIMD target
 
-class EveryCoverageForm : public ::testing::TestWithParam<std::string_view> {
+class EveryCoverageForm : public EveryCoverageMethod {
  protected:
-  const CoverageMethod& method_ = find_coverage_method(GetParam());
-
   void expect_same(const std::vector<FloatTriangle>& floats, Size size, const std::string& what) {
     const std::vector<ScreenTriangle> grid =
         method_.contract_depth ? snapped(floats) : std::vector<ScreenTriangle>{};
@@ -197,10 +170,6 @@ class EveryCoverageForm : public ::testing::TestWithParam<std::string_view> {
     }
   }
 };
-
-std::string text_of(Size size) {
-  return " in " + std::to_string(size.width) + "x" + std::to_string(size.height);
-}
 
 // Widths below, at and above a vector's, and images narrower than one.
 constexpr Size kSizes[] = {{1, 1}, {5, 40}, {16, 16}, {17, 9}, {90, 70}, {301, 200}};
@@ -224,41 +193,20 @@ TEST_P(EveryCoverageForm, DrawsTrianglesThatReachFarOutOfTheImage) {
   constexpr Size kSize{640, 90};
   Random random(17);
   for (const float reach : {200.0f, 3000.0f, 15000.0f}) {
-    std::vector<FloatTriangle> triangles(200);
-    std::uint32_t id = 1;
-    for (auto& [t, payload] : triangles) {
-      payload = id++;
+    auto triangles = hard_floats("anywhere", 200, {kSize.width, kSize.height}, 17);
+    for (FloatTriangle& t : triangles)
       for (int i = 0; i < 3; ++i) {
-        t.x_px[i] = random.uniform(-reach, 640.0f + reach);
-        t.y_px[i] = random.uniform(-reach, 90.0f + reach);
-        t.z01[i] = random.uniform(0.0f, 1.0f);
+        t.at.x_px[i] += random.uniform(-reach, reach);
+        t.at.y_px[i] += random.uniform(-reach, reach);
       }
-    }
     expect_same(triangles, kSize, std::to_string(reach) + " px outside");
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(names_of(coverage_methods())),
+                         [](const auto& param) { return testing::test_name(param); });
 INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageForm, ::testing::ValuesIn(names_of(coverage_methods())),
                          [](const auto& param) { return testing::test_name(param); });
-
-TEST(CoverageRegistry, HoldsEveryBackendAndTheTableOnce) {
-  std::multiset<std::string_view> names;
-  for (const auto& method : coverage_methods()) names.insert(method.info.name);
-  for (const auto& backend : backends()) EXPECT_EQ(names.count(backend.name), 1u) << backend.name;
-  for (const auto& method : coverage_table())
-    EXPECT_EQ(names.count(method.info.name), 1u) << method.info.name;
-}
-
-TEST(CoverageMethods, Dda1616WrapsPast32767Pixels) {
-  const auto errors = [](int x0) {
-    const auto x = static_cast<float>(x0);
-    const Picture picture({{{{x + 1, x + 30, x + 5}, {1, 9, 30}, {0, 0, 0}}, 1}}, {32, 32, x0, 0});
-    EXPECT_GT(picture.by_floats.covered, 100u);
-    return against_floats("dda_16_16", picture).errors();
-  };
-  EXPECT_EQ(errors(32736), 0u);
-  EXPECT_GT(errors(32768), 100u);
-}
 
 TEST(CoverageMethods, RefuseTrianglesBeyondTheGuardBandForBackends) {
   const std::vector<FloatTriangle> far{{{{0, 30, 5}, {1, 9, 30}, {0, 0, 0}}, 1}};

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,7 +21,6 @@ struct Lattice {
 
   std::uint64_t points() const { return coordinates.size() * coordinates.size(); }
   std::uint64_t triangles() const { return points() * points() * points(); }  // each vertex is any point
-  friend std::ostream& operator<<(std::ostream& out, const Lattice& lattice) { return out << lattice.name; }
 };
 
 Lattice steps(std::string name, int px, int steps_per_px) {
@@ -70,15 +68,6 @@ std::vector<lab::DrawOptions> all_targets() {
   return ways;
 }
 
-// As a failure's message names it.
-std::string text(const ScreenTriangle& t) {
-  std::string all;
-  for (int i = 0; i < 3; ++i)
-    all += " (" + std::to_string(t.x_q15[i]) + ", " + std::to_string(t.y_q15[i]) + ", " +
-           std::to_string(t.z[i]) + ")";
-  return all;
-}
-
 class EveryTriangle : public ::testing::TestWithParam<Lattice> {};
 
 TEST_P(EveryTriangle, OnTheLatticeMatchesTheOracle) {
@@ -98,12 +87,9 @@ TEST_P(EveryTriangle, OnTheLatticeMatchesTheOracle) {
         lab::poison(actual);
         made.get(info, way.tiles).draw(triangles, actual.view(), {kBackground}, way.execution);
         comparisons += triangles.size();
-        const auto wrong = lab::compare(expected, actual);
-        if (wrong.pixels == 0) continue;
-        const auto cell =
-            static_cast<std::size_t>(wrong.first_y / kCellPx * kCellsASide + wrong.first_x / kCellPx);
-        ADD_FAILURE() << info.name << ", " << describe(way) << ": " << difference_text(expected, actual)
-                      << "; the triangle there, in 2^-15 px:" << text(triangles[cell]);
+        expect_same(
+            expected, actual,
+            std::string(info.name) + ", " + describe(way) + ", triangles from " + std::to_string(first));
       }
   }
   RecordProperty("cases", std::to_string(lattice.triangles()));

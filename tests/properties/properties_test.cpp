@@ -79,23 +79,6 @@ TEST_P(Properties, RotatingOrReversingTheVertexOrderChangesNothing) {
   });
 }
 
-TEST_P(Properties, TrianglesWithoutAreaChangeNothing) {
-  for_each_list([&](const Triangles& triangles, int width, int height) {
-    Triangles without = triangles, more;
-    std::erase_if(without, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
-    for (const ScreenTriangle& t : triangles) {
-      more.push_back(t);
-      for (const auto& [a, b, c] : {std::array{0, 0, 1}, {1, 2, 1}, {2, 2, 2}})
-        more.push_back({{t.x_q15[a], t.x_q15[b], t.x_q15[c]},
-                        {t.y_q15[a], t.y_q15[b], t.y_q15[c]},
-                        {t.z[a], t.z[b], t.z[c]},
-                        ~t.payload});
-    }
-    expect_same_pictures(triangles, without, width, height);
-    expect_same_pictures(triangles, more, width, height);
-  });
-}
-
 struct Move {
   int x, y;  // px, not negative
 };
@@ -115,42 +98,25 @@ std::pair<Triangles, Triangles> before_and_after(const Triangles& triangles, con
   return both;
 }
 
-// Copies the part of a picture or of counts that was in view before the move.
-void copy_moved_back(const std::uint32_t* from, std::ptrdiff_t stride, const Move& move, int width,
-                     int height, std::uint32_t* to, std::ptrdiff_t to_stride) {
-  for (int y = 0; y < height; ++y)
-    std::copy_n(from + (y + move.y) * stride + move.x, width, to + y * to_stride);
-}
-
-TEST_P(Properties, MovingByMultiplesOf64PixelsChangesNothing) {  // the cell of depth, rule 6
+// By multiples of 64 px, which is the cell of depth (rule 6); and by any whole pixels if all planes are
+// level.
+TEST_P(Properties, MovingByWholePixelsChangesNothing) {
   for_each_list([&](const Triangles& triangles, int width, int height) {
-    for (const Move move : {Move{64, 0}, Move{0, 64}, Move{192, 128}}) {
-      const auto both = before_and_after(triangles, move);
+    Triangles level = triangles;
+    for (ScreenTriangle& t : level) t.z[1] = t.z[2] = t.z[0];
+    for (const Move move : {Move{64, 0}, {0, 64}, {192, 128}, {1, 0}, {0, 1}, {63, 17}, {5, 130}}) {
+      const bool by_cells = move.x % 64 == 0 && move.y % 64 == 0;
+      const auto both = before_and_after(by_cells ? triangles : level, move);
       const Triangles &before = both.first, &after = both.second;
       for_each_way([&](Backend& backend, const Execution& execution, const std::string& what) {
         const Framebuffer moved = drawn(backend, after, width + move.x, height + move.y, execution);
         Framebuffer back(width, height);
         const FrameView view = back.view();
-        copy_moved_back(moved.depth_row(0), moved.stride(), move, width, height, view.depth, view.stride);
-        copy_moved_back(moved.payload_row(0), moved.stride(), move, width, height, view.payload, view.stride);
+        for (int y = 0; y < height; ++y) {  // the part that was in view before the move
+          std::copy_n(moved.depth_row(y + move.y) + move.x, width, view.depth + y * view.stride);
+          std::copy_n(moved.payload_row(y + move.y) + move.x, width, view.payload + y * view.stride);
+        }
         expect_same(drawn(backend, before, width, height, execution), back, what);
-      });
-    }
-  });
-}
-
-// Each triangle is drawn without occlusion by the others.
-TEST_P(Properties, MovingByWholePixelsKeepsHitCounts) {
-  for_each_list([&](const Triangles& triangles, int width, int height) {
-    for (const Move move : {Move{1, 0}, Move{0, 1}, Move{63, 17}, Move{5, 130}}) {
-      const auto both = before_and_after(triangles, move);
-      const Triangles &before = both.first, &after = both.second;
-      for_each_way([&](Backend& backend, const Execution& execution, const std::string& what) {
-        const auto hits = lab::count_hits(backend, before, width, height, execution);
-        const auto moved = lab::count_hits(backend, after, width + move.x, height + move.y, execution);
-        std::vector<std::uint32_t> back(hits.size());
-        copy_moved_back(moved.data(), width + move.x, move, width, height, back.data(), width);
-        EXPECT_TRUE(hits == back) << what << ", moved by " << move.x << ", " << move.y;
       });
     }
   });
