@@ -11,7 +11,7 @@ namespace edgewise::lab {
 namespace {
 
 // Of ours and the exact ones, those of kShownBits.
-const std::vector<ProjectionMethod>& swept() {
+const std::vector<ProjectionMethod>& swept_projections() {
   static const std::vector<ProjectionMethod> list = [] {
     std::vector<ProjectionMethod> all(projection_methods().begin(), projection_methods().end());
     std::erase_if(all, [](const ProjectionMethod& method) {
@@ -23,7 +23,7 @@ const std::vector<ProjectionMethod>& swept() {
 }
 
 Measured measure_scene(Scene scene) {
-  const auto& methods = swept();
+  const auto& methods = swept_projections();
   const ProjectionJudge judge(std::move(scene), {480, 270}, 1);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i)
@@ -35,7 +35,7 @@ Measured measure_scene(Scene scene) {
 
 std::vector<MethodInfo> swept_projection_methods() {
   std::vector<MethodInfo> list;
-  for (const ProjectionMethod& method : swept()) list.push_back(method.info);
+  for (const ProjectionMethod& method : swept_projections()) list.push_back(method.info);
   return list;
 }
 
