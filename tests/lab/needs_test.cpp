@@ -250,8 +250,6 @@ TEST(Needs, ComputesTheExactWidthOfEdgeValues) {
   }
 }
 
-}
-
 template <int... kBits>
 void draw_with_depth_bits(int bits, const VisibilityScene& scene, VisibilityFrame& frame,
                           std::integer_sequence<int, kBits...>) {
