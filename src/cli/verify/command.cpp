@@ -129,7 +129,8 @@ Verify also compares all backends with an oracle, which computes each pixel in e
 arithmetic. It does so on a small image, or at the size of a .tri file whose pixels times triangles
 are at most 7.5 million.
 
-Columns: triangles submitted; frames compared; pixels that differ; pixels that differ from the oracle.
+Columns: triangles submitted; frames compared; pixels that differ; pixels that differ from the
+oracle.
 On a difference, verify writes pictures and a .tri file that reproduces it (with the same
 --subpixel-bits), and exits with 1.
 
