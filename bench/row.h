@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "bench/workloads/choice.h"
-#include "bench/workloads/methods.h"
-#include "bench/workloads/pipelines.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
 #include "lab/peers/peer.h"
@@ -26,14 +24,16 @@ inline constexpr double kTooSlowToRepeat_s = 0.3;
 // Rows that take longer are drawn once. Frames whose backend alone takes longer are left out of the suite.
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
+using TimedDraw = std::function<void()>;
+
 struct Row {
   // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell,
   // lab, needs or choice
   std::string name;
-  std::shared_ptr<Workload> workload;    // null for methods, pipelines and choices
-  std::optional<MethodDraw> method;      // of the laboratory
-  std::optional<PipelineDraw> pipeline;  // of the laboratory
-  std::optional<ChoiceDraw> choice;      // of the laboratory; peers' have a workload
+  std::shared_ptr<Workload> workload;  // null for what the laboratory draws, which has this:
+  // Draws and judges the picture, and returns the timed draw. Sets `error`, and of methods `triangles`.
+  std::function<TimedDraw(Row&)> prepare;
+  std::optional<std::size_t> triangles;
   Timed timed = Timed::raster;
   const BackendInfo* backend = nullptr;  // null for front end rows, peers and rows without a workload
   const lab::PeerInfo* peer = nullptr;

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
 
-#include "lab/stage_methods.h"
+#include "bench/workloads/laboratory.h"
 #include "support/options.h"
 #include "support/printable.h"
 
@@ -37,6 +38,13 @@ tools::Source random_source(const SuiteOptions& options, std::size_t count, doub
           true};
 }
 
+// Whether the suite times coverage methods on this scene.
+bool is_timed(const lab::LabScene& scene) {
+  constexpr std::string_view kTimed[] = {"mesh_on_grid", "mesh", "torus-knot"};
+  return scene.family == lab::Family::coverage &&
+         std::find(std::begin(kTimed), std::end(kTimed), scene.name) != std::end(kTimed);
+}
+
 // Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
 // of a first attempt.
 tools::Source area_source(const SuiteOptions& options, double area_px) {
@@ -59,7 +67,8 @@ class Suite {
   explicit Suite(const SuiteOptions& options) : options_(options) {}
 
   void add_scene(const WorkloadPtr& workload, const std::string& name) {
-    for (const int threads : options_.threads) add_frontend(workload, name, threads);
+    for (const int threads : options_.threads)
+      add_row(workload, Timed::frontend, fmt::format("frontend/{}/threads:{}", name, threads), threads);
     for (const auto& backend : backends())
       for (const int threads : options_.threads) {
         add(workload, Timed::raster, backend, name, threads);
@@ -120,34 +129,12 @@ class Suite {
     }
   }
 
-  void add_methods(const lab::LabScene& scene) {
-    for (MethodDraw& draw : method_draws(scene)) {
-      Row row;
-      row.name =
-          fmt::format("lab/{}/family:{}/method:{}/simd:{}/threads:{}", scene.name, name_of(scene.family),
-                      draw.name(), name_of(draw.execution.target), draw.execution.threads);
-      row.execution = draw.execution;
-      row.method = std::move(draw);
-      rows_.push_back(std::move(row));
-    }
-  }
+  void add(std::vector<Row> rows) { std::ranges::move(rows, std::back_inserter(rows_)); }
 
-  // Of our methods and of peers, on one thread.
+  // Of our methods and of peers.
   void add_choices(const lab::ChoiceScene& scene) {
-    const auto frame = std::make_shared<ChoiceFrame>(ChoiceFrame{scene, {}, {}});
-    std::vector<const lab::CoverageMethod*> methods;
-    for (const auto& method : lab::coverage_methods()) methods.push_back(&method);
-    const auto add_row = [&](Row row, std::string_view method) {
-      row.name = fmt::format("choice/{}/method:{}/threads:1", scene.name, method);
-      row.many_rounds_up_to_s = kTooSlowToRepeat_s;
-      rows_.push_back(std::move(row));
-    };
-    for (const lab::ChoiceMethod& method : lab::choice_methods(methods)) {
-      Row row;
-      row.choice = ChoiceDraw{frame, method};
-      add_row(std::move(row), method.name);
-    }
-    if (!options_.peers) return;
+    const std::size_t first = rows_.size();
+    add(choice_rows(scene));
     const auto workload =
         std::make_shared<Workload>(scene.size.width, scene.size.height, Cull::back, [scene] {
           Drawable drawable = scene.make(0);
@@ -155,28 +142,10 @@ class Suite {
           return tools::Source{std::string(scene.name), std::move(drawable), stream};
         });
     for (const auto& peer : lab::benchmark_peers()) {
-      if (peer.own_clock) continue;  // a GPU
-      Row row;
-      row.workload = workload;
-      row.timed = Timed::frame;
-      row.peer = &peer;
-      add_row(std::move(row), peer.name);
+      if (!options_.peers || peer.own_clock) continue;  // a GPU
+      add_row(workload, Timed::frame, choice_name(scene, peer.name), 1).peer = &peer;
     }
-  }
-
-  // From the vertices to the picture.
-  void add_pipelines(const std::string& file) {
-    for (const auto& scene : read_pipelines(file)) {
-      const auto add = [&](const std::string& name, const lab::Pipeline& pipeline) {
-        Row row;
-        row.name = fmt::format("needs/{}/pipeline:{}/threads:1", scene->name, name);
-        row.execution = {.threads = 1, .target = SimdTarget::scalar};
-        row.pipeline = PipelineDraw{scene, pipeline};
-        rows_.push_back(std::move(row));
-      };
-      for (std::size_t i = 0; i < scene->minima.size(); ++i) add(std::to_string(i + 1), scene->minima[i]);
-      if (!scene->minima.empty()) add("exact", lab::exact_pipeline());
-    }
+    for (std::size_t i = first; i < rows_.size(); ++i) rows_[i].many_rounds_up_to_s = kTooSlowToRepeat_s;
   }
 
   WorkloadPtr make_workload(std::function<tools::Source()> load) const {
@@ -199,14 +168,10 @@ class Suite {
   void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
            int threads, SimdTarget target = SimdTarget::best) {
     const char* with = timed == Timed::frame ? "+frontend" : "";
-    Row row;
-    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads);
-    row.workload = workload;
-    row.timed = timed;
+    Row& row = add_row(workload, timed, fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads),
+                       threads);
     row.backend = &backend;
-    row.execution.threads = threads;
     row.execution.target = backend.name == "naive" ? SimdTarget::scalar : target;  // all of it
-    rows_.push_back(std::move(row));
   }
 
   // As a user would draw it.
@@ -219,22 +184,18 @@ class Suite {
 
   void add_peer(const WorkloadPtr& workload, const lab::PeerInfo& peer, const std::string& scene,
                 int threads) {
-    Row row;
-    row.name = fmt::format("{}+frontend/{}/threads:{}", peer.name, scene, threads);
-    row.workload = workload;
-    row.timed = Timed::frame;
-    row.peer = &peer;
-    row.execution.threads = threads;
-    rows_.push_back(std::move(row));
+    add_row(workload, Timed::frame, fmt::format("{}+frontend/{}/threads:{}", peer.name, scene, threads),
+            threads)
+        .peer = &peer;
   }
 
-  void add_frontend(const WorkloadPtr& workload, const std::string& scene, int threads) {
-    Row row;
-    row.name = fmt::format("frontend/{}/threads:{}", scene, threads);
+  Row& add_row(const WorkloadPtr& workload, Timed timed, std::string name, int threads) {
+    Row& row = rows_.emplace_back();
+    row.name = std::move(name);
     row.workload = workload;
-    row.timed = Timed::frontend;
+    row.timed = timed;
     row.execution.threads = threads;
-    rows_.push_back(std::move(row));
+    return row;
   }
 
   const SuiteOptions& options_;
@@ -257,7 +218,7 @@ std::string name_in_rows(const std::string& name_or_path) {
 
 bool in_quick_run(const Row& row) {
   constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "grid4"};
-  if (row.method || is_choice(row)) return is_choice(row);
+  if (row.prepare || is_choice(row)) return is_choice(row);
   const std::string_view name = row.name;
   const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
   const std::string_view scene = name.substr(begin, end - begin);
@@ -302,10 +263,9 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
     if (options.methods)
-      for (const lab::LabScene& own : lab::own_scenes(name, stream != nullptr, [source, size] {
-             return lab::SizedDrawable{source.drawable, size};
-           }))
-        suite.add_methods(own);
+      suite.add(method_rows(lab::own_coverage_scene(name, [source, size] {
+        return lab::SizedDrawable{source.drawable, size};
+      })));
   };
   for (const auto& scene : options.scenes) add_named(scene);
   if (!options.scenes.empty()) return suite.take();
@@ -321,9 +281,9 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
-    if (scene.timed) suite.add_methods(scene);
+    if (is_timed(scene)) suite.add(method_rows(scene));
   for (const lab::ChoiceScene& scene : lab::choice_scenes(options.quick)) suite.add_choices(scene);
-  if (!options.needs.empty()) suite.add_pipelines(options.needs);
+  if (!options.needs.empty()) suite.add(pipeline_rows(options.needs));
   std::vector<Row> rows = suite.take();
   if (options.quick) std::erase_if(rows, [](const Row& row) { return !in_quick_run(row); });
   return rows;

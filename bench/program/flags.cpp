@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -10,24 +9,6 @@
 #include "support/options.h"
 
 namespace edgewise::bench {
-
-namespace {
-
-// For suggestions only: Google Benchmark itself accepts or rejects its flags.
-constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
-                                                   "--benchmark_context",
-                                                   "--benchmark_counters_tabular",
-                                                   "--benchmark_enable_random_interleaving",
-                                                   "--benchmark_filter",
-                                                   "--benchmark_format",
-                                                   "--benchmark_list_tests",
-                                                   "--benchmark_min_time",
-                                                   "--benchmark_min_warmup_time",
-                                                   "--benchmark_perf_counters",
-                                                   "--benchmark_repetitions",
-                                                   "--benchmark_time_unit"};
-
-}  // namespace
 
 std::optional<Flags> parse_flags(int argc, char** argv) {
   Flags flags;
@@ -94,8 +75,6 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   flags.suite.peers = !no_peers;
   flags.benchmark = parser.remaining();
   flags.known = tools::option_names(parser);
-  flags.known.insert(flags.known.end(), std::begin(kGoogleBenchmarkOptions),
-                     std::end(kGoogleBenchmarkOptions));
   for (const auto& flag : flags.benchmark)
     if (flag.starts_with("--benchmark_min_time")) flags.own_iterations = false;
   constexpr std::string_view kRepetitions = "--benchmark_repetitions=";

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -22,7 +21,6 @@
 #include "support/machine.h"
 #include "support/options.h"
 #include "support/output_path.h"
-#include "support/printable.h"
 #include "support/process.h"
 #include "support/progress.h"
 
@@ -163,12 +161,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   }
   auto& counters = state.counters;
   if (row.peer != nullptr) state.SetLabel(row.peer_version);
-  if (row.method) {
-    const MethodScene& scene = *row.method->scene;
-    counters["width"] = scene.size().width;
-    counters["height"] = scene.size().height;
-    counters["triangles"] = static_cast<double>(scene.triangles());
-  }
+  if (row.triangles) counters["triangles"] = static_cast<double>(*row.triangles);
   if (!row.workload) return;
   const Workload& workload = *row.workload;
   counters["width"] = workload.width();
@@ -223,15 +216,7 @@ void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter
   }
 }
 
-// The file's name and size, by which people recognize it.
-std::string describe_file(const std::string& path) {
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(path, error);
-  const std::string name = tools::printable(std::filesystem::path(path).filename().string());
-  return error ? name : fmt::format("{}, {} kB", name, bytes / 1000);
-}
-
-void add_context(const Flags& flags, std::span<const Row> rows, std::span<const std::string> inputs) {
+void add_context(const Flags& flags, std::span<const Row> rows) {
   std::vector<std::string_view> names, peers;  // peers: with whole frames
   for (const BackendInfo& backend : backends()) names.push_back(backend.name);
   for (const Row& row : rows)
@@ -251,9 +236,6 @@ void add_context(const Flags& flags, std::span<const Row> rows, std::span<const 
   benchmark::AddCustomContext("peers", fmt::format("{}", fmt::join(peers, " ")));
   benchmark::AddCustomContext("subpixel_bits", std::to_string(flags.suite.subpixel_bits));
   benchmark::AddCustomContext("rounds", std::to_string(flags.repetitions.value_or(kRounds)));
-  for (const std::string& scene : inputs)
-    if (tools::is_file_path(scene))
-      benchmark::AddCustomContext("file " + name_in_rows(scene), describe_file(tools::input_path(scene)));
 }
 
 int run(int argc, char** argv) {
@@ -263,9 +245,8 @@ int run(int argc, char** argv) {
   initialize_benchmark(flags);
   std::vector<tools::Output> files;
   if (!flags.out.empty()) files.push_back({"--benchmark_out", flags.out});
-  std::vector<std::string> inputs = flags.suite.scenes;
-  inputs.insert(inputs.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
-  std::vector<std::string> read = inputs;
+  std::vector<std::string> read = flags.suite.scenes;
+  read.insert(read.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
   if (!flags.suite.needs.empty()) read.push_back(flags.suite.needs);
   tools::check_files(files, read);
   std::optional<AtomicFile> out;
@@ -280,7 +261,7 @@ int run(int argc, char** argv) {
   Stage stage;
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
-  add_context(flags, rows, inputs);
+  add_context(flags, rows);
   std::vector<std::string> names;
   for (const auto& row : rows) names.push_back(row.name);
   Reporter reporter(names);
@@ -298,12 +279,8 @@ int failed(std::string_view why) {
   return 2;
 }
 
-int guarded(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    return failed(tools::reason_of(error));
-  }
+int guarded(int argc, char** argv) try { return run(argc, argv); } catch (const std::exception& error) {
+  return failed(tools::reason_of(error));
 }
 
 }  // namespace

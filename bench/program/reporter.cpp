@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <string_view>
 #include <utility>
 
 #include "support/json.h"
@@ -13,20 +11,6 @@
 namespace edgewise::bench {
 
 namespace {
-
-void derive_rates(benchmark::BenchmarkReporter::Run& run) {
-  const double s = run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit);
-  if (s <= 0.0) return;
-  auto& counters = run.counters;
-  const auto triangles = counters.find("triangles");
-  if (triangles == counters.end()) return;
-  counters["Mtri/s"] = triangles->second.value / s * 1e-6;
-  const auto covered = counters.find("covered_px");
-  if (covered == counters.end() || covered->second.value == 0.0) return;
-  const double covered_px = covered->second.value;
-  counters["covered_Gpx/s"] = covered_px / s * 1e-9;
-  counters["ns_per_covered_px"] = s * 1e9 / covered_px;
-}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -84,7 +68,6 @@ void Reporter::finish() {
     for (Run& run : runs) run.repetitions = static_cast<std::int64_t>(runs.size());
     shown.push_back(runs.size() == 1 ? runs.front() : median_of(runs));
     if (runs.size() > 1) runs.push_back(shown.back());
-    if (!shown.back().error_occurred) derive_rates(shown.back());
     json_.ReportRuns(runs);
   }
   if (!shown.empty()) console_->ReportRuns(shown);
@@ -93,30 +76,11 @@ void Reporter::finish() {
 }
 
 std::string Reporter::json() const {
-  static const std::set<std::string_view> kOfEachRepetition{"name", "run_type", "iterations", "real_time",
-                                                            "time_unit"};
   auto result = nlohmann::ordered_json::parse(json_text_.str());
   auto& context = result["context"];
   context.erase("host_name");
   context["executable"] = std::filesystem::path(context.value("executable", "")).filename().string();
-  std::string text = "{\n\"context\": " + tools::json_text(context, 2) + ",\n\"benchmarks\": [";
-  const char* separator = "\n";
-  nlohmann::ordered_json first;
-  for (auto& row : result["benchmarks"]) {
-    for (const char* key : {"family_index", "per_family_instance_index", "run_name", "repetitions", "threads",
-                            "cpu_time"})  // not ours
-      row.erase(key);
-    // A name's later repetitions hold only the counters that differ from the first's.
-    if (first.is_null() || first["name"] != row["name"]) {
-      first = row;
-    } else {
-      for (const auto& [key, value] : first.items())
-        if (!kOfEachRepetition.contains(key) && row.contains(key) && row[key] == value) row.erase(key);
-    }
-    text += separator + tools::json_text(row);
-    separator = ",\n";
-  }
-  return text + "\n]\n}\n";
+  return tools::json_text(result, 1) + '\n';
 }
 
 }  // namespace edgewise::bench

@@ -1,5 +1,5 @@
 // Google Benchmark's own console and JSON output of several runs, each of which is one repetition: with plain
-// row names in the suite's order, medians, rates derived from the times, and without the host name.
+// row names in the suite's order, medians, and without the host name.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -20,7 +20,7 @@ class Reporter final : public benchmark::BenchmarkReporter {
   // After the last run: prints.
   void finish();
 
-  // After finish(): the JSON, one line per row.
+  // After finish().
   std::string json() const;
 
  private:

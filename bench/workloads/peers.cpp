@@ -196,7 +196,6 @@ PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> thei
     const auto row = theirs.subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(ours.width()));
     for (int x = 0; x < ours.width(); ++x) {
       const std::uint32_t mine = ours.payload_row(y)[x], other = row[static_cast<std::size_t>(x)];
-      result.drawn += mine != kNoTriangle || other != kNoTriangle;
       if (mine == other) continue;
       if (mine == kNoTriangle || other == kNoTriangle) {
         ++result.coverage;

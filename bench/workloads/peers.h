@@ -32,8 +32,7 @@ std::vector<ScreenTriangle> triangles_by_id(const Workload& workload);
 // How a peer's picture differs from ours. Both are drawn with triangle ids as payloads, over kNoTriangle.
 struct PeerJudgement {
   // Numbers of pixels.
-  std::uint64_t drawn = 0;            // in at least one of the pictures
-  std::uint64_t coverage = 0;         // in exactly one
+  std::uint64_t coverage = 0;         // in exactly one of the pictures
   std::uint64_t depth_ties = 0;       // another triangle, which covers the pixel at a depth within tolerance
   std::uint64_t other_triangles = 0;  // another triangle, not within tolerance
   int first_x = -1, first_y = -1;     // the first pixel in `coverage` or `other_triangles`

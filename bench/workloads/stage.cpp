@@ -83,9 +83,7 @@ void Stage::compare_ours(Row& row) {
 
 void Stage::compare(Row& row) {
   if (!row.workload) {
-    draws_[row.name] = row.method   ? row.method->prepare(row.error)
-                       : row.choice ? row.choice->prepare(row.error)
-                                    : row.pipeline->prepare(row.error);
+    draws_[row.name] = row.prepare(row);
     row.once_s = timed_work_s(row);
   } else if (row.peer != nullptr) {
     peers_.compare(row);

@@ -122,7 +122,7 @@ def times_of(bench):
 
 def parse_accuracy(data, bench=None):
     times = times_of(bench)
-    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m.get("max_side_px")) for m in data["methods"] if not m.get("other_bits")}
+    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m.get("max_side_px")) for m in data["methods"]}
     scenes = []
     for scene in data["scenes"]:
         family = FAMILIES[scene["family"]]
@@ -130,7 +130,7 @@ def parse_accuracy(data, bench=None):
         measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]],
                                    {form: row for form, row in times.get((family.name, scene["name"], entry["name"]), {}).items()
                                     if row.counters["triangles"] == triangles})  # else timed on a scene of another size
-                    for entry in scene["methods"] if (family.name, entry["name"]) in methods]
+                    for entry in scene["methods"]]
         scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]), tuple(measured), float(scene.get("largest_side_px", 0.0)),
                             scene["kind"]))
     by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}

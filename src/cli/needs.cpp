@@ -5,14 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
 
-#include "cli/accuracy/closeup.h"
 #include "cli/commands.h"
 #include "core/trigonometry.h"
 #include "support/console.h"
@@ -25,18 +22,16 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr double kDefaultSeconds = 10.0;
+constexpr double kSeconds = 10.0;  // over which --frames are spread
 constexpr int kMostStudiedFrames = 100'000;
 constexpr int kMostTolerated = 1'000'000'000;
-constexpr int kEdgeBits[] = {4, 5, 6, 7, 8};
 
 struct NeedsCommandOptions {
   std::vector<std::string> scenes;
   SceneOptions scene;
   int frames = 1, orbit = 0, tolerance = 0, threads = default_threads();
-  std::optional<double> seconds, displacement;
-  std::string pictures;
-  bool ranges = false, json = false;
+  std::optional<double> displacement;
+  bool json = false;
 };
 
 glm::dvec3 centre_of(const Scene& scene) {
@@ -56,36 +51,6 @@ void turn_camera(Camera& camera, glm::dvec3 centre, double radians) {
 
 std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
-std::string triangles(std::vector<std::uint32_t> ids) {
-  constexpr std::size_t kMost = 3;
-  if (ids.empty()) return "the background";
-  const std::size_t more = ids.size() > kMost ? ids.size() - kMost : 0;
-  ids.resize(ids.size() - more);
-  return fmt::format("triangle{} {}{}", ids.size() > 1 ? "s" : "", fmt::join(ids, ", "),
-                     more == 0 ? "" : fmt::format(" and {} more", more));
-}
-
-// The triangles of `from` that `other` lacks.
-std::vector<std::uint32_t> without(std::vector<std::uint32_t> from, const std::vector<std::uint32_t>& other) {
-  std::erase_if(from,
-                [&](std::uint32_t id) { return std::find(other.begin(), other.end(), id) != other.end(); });
-  return from;
-}
-
-std::string describe(const lab::Witness& w) {
-  if (w.right.size() <= 1 && w.drawn.size() <= 1)
-    return fmt::format("it shows {}, not {}", triangles(w.drawn), triangles(w.right));
-  const auto extra = without(w.drawn, w.right), missing = without(w.right, w.drawn);
-  return missing.empty() ? fmt::format("it also covers {}", triangles(extra))
-                         : fmt::format("it does not cover {}", triangles(missing));
-}
-
-std::string describe(const lab::Answer& answer, const std::string& error) {
-  const lab::Witness& w = *answer.witness;
-  return fmt::format("{}: {} in frame {}; at ({}, {}) {}", answer.name, counted(answer.wrong_px, error),
-                     w.frame, w.x_px, w.y_px, describe(w));
 }
 
 // Breaks text into lines of at most 78 characters.
@@ -113,8 +78,6 @@ std::string text_of(const lab::Question& question) {
     text += indented("proven: " + question.proof);
   else if (needed != nullptr)
     text += indented("seen in " + counted(question.trials, question.trial));
-  const lab::Answer* const next = question.next_weaker();
-  if (next != nullptr) text += indented("not enough: " + describe(*next, question.error));
   return text;
 }
 
@@ -137,13 +100,6 @@ std::string text_of(const lab::Minima& minima, std::uint64_t tolerance_px) {
   return text;
 }
 
-// The last level that is not enough; null if there is none.
-const lab::Level* last_wrong(const lab::Curve& curve) {
-  const auto wrong = std::find_if(curve.levels.rbegin(), curve.levels.rend(),
-                                  [](const lab::Level& level) { return !level.enough(); });
-  return wrong == curve.levels.rend() ? nullptr : &*wrong;
-}
-
 std::string text_of(const lab::Curve& curve, std::uint64_t frames) {
   const std::string stage = name_of(curve.stage);
   if (!curve.proof.empty() && curve.levels.front().wrong_px == curve.levels.back().wrong_px)
@@ -162,45 +118,6 @@ std::string text_of(const lab::Curve& curve, std::uint64_t frames) {
     text += fmt::format("    {:<22}{:>11.1f}{:>9}{:>11.1f}{:>11.1f}{}\n", name, mean(level.wrong_px),
                         level.worst_px, mean(level.hidden_px), level.farthest_px(),
                         level.enough() ? "  enough" : "");
-  }
-  if (const lab::Level* const wrong = last_wrong(curve)) {
-    const lab::Witness& w = *wrong->witness;
-    text += indented(
-        fmt::format("{} in frame {}: at ({}, {}) {}", wrong->name, w.frame, w.x_px, w.y_px, describe(w)));
-  }
-  return text;
-}
-
-// How depth buffers are called by graphics interfaces, and as levels.
-constexpr std::pair<const char*, const char*> kDepthFormats[] = {{"D16", "16 bits"},
-                                                                 {"D24", "24 bits"},
-                                                                 {"D32F", "float_z"},
-                                                                 {"reversed D32F", "reversed_z"},
-                                                                 {"ours", "contract31"}};
-
-std::string depth_formats(const std::vector<lab::Curve>& curves, const lab::Ranges& ranges) {
-  const lab::Curve& depths = *std::ranges::find(curves, lab::kDepth, &lab::Curve::stage);
-  std::vector<std::string> formats;
-  for (const auto& [format, name] : kDepthFormats) {
-    const lab::Level& level = *std::ranges::find(depths.levels, name, &lab::Level::name);
-    formats.push_back(
-        fmt::format("{} {}", format, level.enough() ? "is enough" : counted(level.worst_px, "wrong pixel")));
-  }
-  const std::string planes =
-      ranges.far_z() == 0.0 ? "" : fmt::format(", near {:.4g}, far {:.4g}", ranges.near_z(), ranges.far_z());
-  return line("depth formats" + planes, "") + indented(fmt::format("{}", fmt::join(formats, ", ")));
-}
-
-std::string edge_integers(const lab::Ranges& ranges, double aspect) {
-  std::string text = fmt::format("  {:<19}{:>14}{:>18}{:>25}\n", "integers of edges", "these need",
-                                 "legs in 32, 64", "picture in 32");
-  for (const int bits : kEdgeBits) {
-    const double in_32 = lab::largest_box_px2(32, bits), in_64 = lab::largest_box_px2(64, bits);
-    const std::string picture = fmt::format("{:.0f}x{:.0f} px", std::floor(std::sqrt(in_32 * aspect)),
-                                            std::floor(std::sqrt(in_32 / aspect)));
-    text += fmt::format("    {:<17}{:>11} bits{:>10.0f}, {:<10.0f}px{:>19}\n",
-                        fmt::format("{} subpixel bits", bits), ranges.edge_value_bits(bits),
-                        std::floor(std::sqrt(in_32)), std::floor(std::sqrt(in_64)), picture);
   }
   return text;
 }
@@ -251,13 +168,9 @@ class NeedsCommand {
   explicit NeedsCommand(const NeedsCommandOptions& options) : options_(options) {
     if (options.orbit > 0 && options.frames > 1)
       throw std::invalid_argument("--frames and --orbit cannot be combined");
-    if (options.seconds && options.frames == 1) throw std::invalid_argument("--seconds needs --frames");
     if (options.orbit > 0 && (options.scene.at || options.scene.yaw_deg || options.scene.pitch_deg))
       throw std::invalid_argument(
           "--orbit looks at the scene's centre: --at, --yaw and --pitch cannot be given");
-    if (options.ranges && !options.pictures.empty())
-      throw std::invalid_argument("--ranges draws nothing: --pictures cannot be given");
-    std::set<std::string> names;
     for (const std::string& scene : options.scenes) {
       check_source(scene);
       const std::string name = source_name(scene);
@@ -267,10 +180,7 @@ class NeedsCommand {
       if (options.frames > 1 && is_file_path(scene))
         throw std::invalid_argument("--frames: '" + name + "' does not move" +
                                     (stream ? "" : "; use --orbit"));
-      if (!options.pictures.empty() && !names.insert(name).second)
-        throw std::invalid_argument("--pictures: two scenes have the name '" + name + "'");
     }
-    if (!options.pictures.empty()) check_closeup_folder(options.pictures);
   }
 
   void run() {
@@ -298,7 +208,7 @@ class NeedsCommand {
   }
 
   Shot load(const std::string& scene, int frame) const {
-    const double passed = options_.seconds.value_or(kDefaultSeconds) * frame / options_.frames;
+    const double passed = kSeconds * frame / options_.frames;
     return load_shot(scene, options_.scene, options_.scene.time.value_or(0.0) + passed);
   }
 
@@ -315,8 +225,8 @@ class NeedsCommand {
 
   void study(const std::string& scene) {
     const Shot first = load_first(scene);
-    lab::Needs needs({tolerance_px(), options_.displacement, !options_.pictures.empty(), options_.ranges,
-                      options_.threads});
+    lab::Needs needs(
+        {.tolerance_px = tolerance_px(), .displacement = options_.displacement, .threads = options_.threads});
     Progress progress;
     const double steps = std::max(options_.frames, options_.orbit);
     double done = 0.0;
@@ -326,103 +236,37 @@ class NeedsCommand {
       needs.add(shot.source.drawable, shot.frontend);
       ++done, show();
     });
-    if (options_.ranges) {
-      progress.erase();
-      print(options_.json ? json_text(ranges_json(first, needs)) + "\n" : ranges_table(first, needs));
-      return;
-    }
     const lab::Minima minima =
         needs.minima([&](double share) { progress.show(share, first.source.name + ", whole pipelines"); });
     progress.erase();
     print(options_.json ? json_text(json(first, needs, minima)) + "\n" : table(first, needs, minima));
-    if (!options_.pictures.empty()) write_pictures(first.source.name, needs);
   }
 
   std::uint64_t tolerance_px() const { return static_cast<std::uint64_t>(options_.tolerance); }
 
-  static double aspect(const Shot& shot) { return double(shot.frontend.width) / shot.frontend.height; }
-
-  static std::string heading(const Shot& shot, const lab::Needs& needs) {
-    return fmt::format("{}: {}x{} px, {}\n", printable(shot.source.name), shot.frontend.width,
-                       shot.frontend.height, counted(needs.frames(), "frame"));
-  }
-
-  static std::string ranges_table(const Shot& shot, const lab::Needs& needs) {
-    std::string text = heading(shot, needs);
-    for (int i = 0; !shot.source.stream && i < lab::kViewPlanes; ++i) {
-      const auto plane = static_cast<lab::ViewPlane>(i);
-      const lab::Reach& reach = needs.ranges().reach(plane);
-      text += line(name_of(plane),
-                   reach.beyond == 0 ? "nothing" : fmt::format("triangles beyond it: {}", reach.beyond));
-      text += indented(needs.ranges().describe(plane));
-      if (reach.beyond != 0)
-        text += indented(fmt::format("{} of them do not lie outside one side of the view", reach.crossing));
-    }
-    return text + edge_integers(needs.ranges(), aspect(shot));
-  }
-
-  nlohmann::json ranges_json(const Shot& shot, const lab::Needs& needs) const {
-    nlohmann::json result = json_heading(shot, needs);
-    for (int i = 0; !shot.source.stream && i < lab::kViewPlanes; ++i) {
-      const auto plane = static_cast<lab::ViewPlane>(i);
-      const lab::Reach& reach = needs.ranges().reach(plane);
-      result["reach"][std::string(name_of(plane))] = {{"beyond", reach.beyond}, {"crossing", reach.crossing}};
-    }
-    for (int bits = 0; bits <= lab::kMostSubpixelBits; ++bits)
-      result["edge_value_bits"].push_back(needs.ranges().edge_value_bits(bits));
-    return result;
-  }
-
-  nlohmann::json json_heading(const Shot& shot, const lab::Needs& needs) const {
-    nlohmann::json result{{"scene", shot.source.name},
-                          {"width", shot.frontend.width},
-                          {"height", shot.frontend.height},
-                          {"scale", options_.scene.scale.value_or(1.0)},
-                          {"frames", needs.frames()}};
-    if (!shot.source.stream)
-      result["near_z"] = needs.ranges().near_z(), result["far_z"] = needs.ranges().far_z();
-    return result;
-  }
-
   std::string table(const Shot& shot, const lab::Needs& needs, const lab::Minima& minima) const {
-    std::string text = heading(shot, needs) + text_of(minima, tolerance_px());
+    std::string text = fmt::format("{}: {}x{} px, {}\n", printable(shot.source.name), shot.frontend.width,
+                                   shot.frontend.height, counted(needs.frames(), "frame"));
+    text += text_of(minima, tolerance_px());
     text += fmt::format("{:<26}{:>11}{:>9}{:>11}{:>11}\n", "wrong px, all else exact", "mean", "worst",
                         "hidden", "farthest");
-    const auto curves = needs.curves();
-    for (const lab::Curve& curve : curves) text += text_of(curve, needs.frames());
-    text += depth_formats(curves, needs.ranges()) + edge_integers(needs.ranges(), aspect(shot));
+    for (const lab::Curve& curve : needs.curves()) text += text_of(curve, needs.frames());
     for (const lab::Question& question : needs.edges()) text += text_of(question);
     return text;
   }
 
   nlohmann::json json(const Shot& shot, const lab::Needs& needs, const lab::Minima& minima) const {
-    nlohmann::json result = json_heading(shot, needs);
-    result["tolerance_px"] = options_.tolerance;
-    result["pipelines"] = minima.judged;
-    result["minima"] = minima.right;
+    nlohmann::json result{{"scene", shot.source.name},      {"width", shot.frontend.width},
+                          {"height", shot.frontend.height}, {"scale", options_.scene.scale.value_or(1.0)},
+                          {"frames", needs.frames()},       {"tolerance_px", options_.tolerance},
+                          {"pipelines", minima.judged},     {"minima", minima.right}};
+    if (!shot.source.stream)
+      result["near_z"] = needs.ranges().near_z(), result["far_z"] = needs.ranges().far_z();
     if (minima.right.empty())
       result["closest"] = {{"levels", minima.closest}, {"worst_px", minima.closest_px}};
     for (const lab::Curve& curve : needs.curves()) result["curves"].push_back(json_of(curve, needs.frames()));
     for (const lab::Question& question : needs.edges()) result["edges"].push_back(json_of(question));
     return result;
-  }
-
-  // One close-up for each witness that the table shows.
-  void write_pictures(const std::string& scene, const lab::Needs& needs) const {
-    std::vector<Closeup> closeups;
-    const auto add = [&](const std::string& question, const auto* shown) {
-      if (shown == nullptr || shown->picture.marks.empty()) return;
-      std::string name = scene + "-" + question + "-" + shown->name;
-      std::replace_if(
-          name.begin(), name.end(), [](char c) { return c == ' ' || c == ',' || c == '^'; }, '_');
-      closeups.push_back(closeup(name, shown->picture));
-    };
-    for (const lab::Curve& curve : needs.curves()) add(name_of(curve.stage), last_wrong(curve));
-    for (const lab::Question& question : needs.edges()) add(question.name, question.next_weaker());
-    write_closeups(options_.pictures, closeups);
-    if (!options_.json)
-      print(
-          fmt::format("  -> {} in {}\n", counted(closeups.size(), "picture"), printable(options_.pictures)));
   }
 
   const NeedsCommandOptions& options_;
@@ -431,9 +275,8 @@ class NeedsCommand {
 constexpr const char* kNeedsFooter = R"(Examples:
   edgewise needs cube --frames 24
   edgewise needs bunny.obj --fit --orbit 36 --tolerance 20
-  edgewise needs capture.tri --pictures errors
+  edgewise needs capture.tri
   edgewise needs terrain --displacement 100 --json
-  edgewise needs bunny.obj --fit --ranges
 
 Prints the least precise pipelines that draw all these frames right, drawn as a whole: stages that
 are enough alone may draw wrong pixels together. A pixel is wrong if it shows another triangle than
@@ -451,7 +294,7 @@ Then the wrong pixels of each level while all else is exact, per frame:
   farthest      of the others, in px: from such a pixel to the nearest one at which the exact
                 picture shows the same
 
-Levels, from the least precise on; triangles are numbered in submission order, from 0:
+Levels, from the least precise on:
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop or clip them;
                                "proven" follows from the ranges of the vertices
@@ -463,13 +306,13 @@ Levels, from the least precise on; triangles are numbered in submission order, f
 
 Then edges:
 
-  integers of edges            the bits, with the sign, that these triangles need; and the largest
-                               triangle and picture for integers of 32 and 64 bits
   subpixel bits                so many that no larger number leaves a crack; so many that none
                                displaces more pixels than 8 bits do
   float edges                  methods that compute edges in floats, without a crack
+  edge values                  the integers that hold all of these triangles' edge functions
 
-All figures are of these frames only.
+All figures are of these frames only. --json has a wrong pixel of each level that is not enough, and
+the triangles there, numbered in submission order from 0.
 
 Exit status: 0 done, 2 bad input.)";
 
@@ -479,19 +322,16 @@ Action add_needs(CLI::App& command) {
   const auto o = std::make_shared<NeedsCommandOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   add_integer(command, "--frames", o->frames, 1, kMostStudiedFrames,
-              "Frames of a built-in scene's motion (1)");
-  add_number(command, "--seconds", o->seconds, 0, 1e6, "The time over which they are spread (10)");
+              "Frames of a built-in scene's motion, over 10 s (1)");
   add_integer(command, "--orbit", o->orbit, 1, kMostStudiedFrames,
               "Frames of a camera that circles the scene, or spins straight above it");
   add_integer(command, "--tolerance", o->tolerance, 0, kMostTolerated,
               "Wrong pixels in each frame of a right pipeline (0)");
   add_number(command, "--displacement", o->displacement, 0, 1e6,
              "Pixels per 10^6 edge crossings that rounding may move (as with 8 bits)");
-  command.add_option("--pictures", o->pictures, "Folder for close-ups of wrong pixels")->type_name("DIR");
   o->scene.add_to(command);
   add_integer(command, "--threads", o->threads, 1, kMaxThreads,
               "Threads; answers don't depend on it (usable cores)");
-  command.add_flag("--ranges", o->ranges, "Print only what vertex ranges prove, without drawing");
   command.add_flag("--json", o->json, "Print one JSON object per scene, one per line");
   command.footer(kNeedsFooter);
   return [o] {

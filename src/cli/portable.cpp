@@ -48,14 +48,6 @@ Image mask_of(const lab::PortablePixels& found) {
   return mask;
 }
 
-// "N" or "N-M". Positions rounded to more bits than the fewest are within their step, too.
-int fewest_bits(const std::string& text) {
-  const auto dash = text.find('-', 1);
-  const int fewest = parse_number("--bits", text.substr(0, dash), 1, kMaxSubpixelBits);
-  if (dash != std::string::npos) parse_number("--bits", text.substr(dash + 1), fewest, kMaxSubpixelBits);
-  return fewest;
-}
-
 class PortableCommand {
  public:
   explicit PortableCommand(const PortableOptions& options) : options_(options) {
@@ -154,7 +146,7 @@ class PortableCommand {
 constexpr const char* kPortableFooter = R"(Examples:
   edgewise portable cube -o mask.png --picture golden.png
   edgewise diff golden.png yours.png --mask mask.png    (fails only where all must agree)
-  edgewise portable terrain --bits 4-8        (whatever Vulkan allows)
+  edgewise portable terrain --bits 4          (whatever Vulkan allows)
   edgewise portable bunny.obj --fit --ids -o mask.png --picture ids.png
 
 Two rasterizers that follow Direct3D, Vulkan or WebGPU may draw some pixels differently: positions
@@ -184,8 +176,8 @@ Action add_portable(CLI::App& command) {
   add_text(command, "--picture", "FILE", o->picture, "Reference picture, named like the mask");
   add_format(command, o->format, {Format::png, Format::ppm});
   command.add_flag("--ids", o->ids, "The reference picture shows triangle ids, as `render --payload id`");
-  add_parsed(command, "--bits", "N", "Subpixel bits of the rasterizers, as 8 or 4-8; the fewest decide (8)",
-             [o](const std::string& text) { o->model.subpixel_bits = fewest_bits(text); });
+  add_integer(command, "--bits", o->model.subpixel_bits, 1, kMaxSubpixelBits,
+              "The fewest subpixel bits that the rasterizers have (8)");
   add_integer(command, "--ulps", o->model.transform_ulps, 0, 1000,
               "Error of the viewport transform, in units in the last place (2)");
   add_integer(command, "--guard-band", o->model.guard_band_px, 0, 1 << 20,

@@ -26,30 +26,6 @@ void add_edges(const SourceTruth& source, std::vector<Line>& lines) {
   }
 }
 
-using Polygon = std::vector<glm::dvec2>;  // px
-
-Polygon projected(const FacingScene& scene, const Face& face) {
-  const FacingView& v = scene.view;
-  Polygon polygon;
-  for (std::uint32_t i = face.first; i < face.first + face.count; ++i) {
-    const glm::dvec3 ray = glm::dvec3(scene.positions[i]) - glm::dvec3(v.eye);
-    const double w = v.perspective ? glm::dot(ray, glm::dvec3(v.forward)) : 1.0;
-    polygon.emplace_back(v.size.width / 2.0 + double{v.focal_px} * glm::dot(ray, glm::dvec3(v.right)) / w,
-                         v.size.height / 2.0 + double{v.focal_px} * glm::dot(ray, glm::dvec3(v.down)) / w);
-  }
-  return polygon;
-}
-
-// Even-odd rule.
-bool contains(const Polygon& polygon, double x, double y) {
-  bool inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    if ((a.y <= y) != (b.y <= y) && x < a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y)) inside = !inside;
-  }
-  return inside;
-}
-
 }  // namespace
 
 std::uint32_t colour_of(Mark mark) {
@@ -97,33 +73,6 @@ MarkedPicture mark_visible_triangles(std::span<const std::uint32_t> truth,
                             : drawn[i] == kNoTriangle ? Mark::gap
                             : truth[i] == kNoTriangle ? Mark::extra
                                                       : Mark::twice);
-  return picture;
-}
-
-MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> facts,
-                         std::span<const std::uint8_t> kept) {
-  const Window window{scene.view.size.width, scene.view.size.height};
-  MarkedPicture picture{window,
-                        std::vector<std::uint32_t>(pixels_of(window), kNoTriangle),
-                        std::vector<Mark>(pixels_of(window), Mark::none),
-                        {}};
-  for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {
-    const Polygon polygon = projected(scene, scene.faces[i]);
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const glm::dvec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
-      picture.lines.push_back({a.x, a.y, b.x, b.y});
-    }
-    const bool keep = kept[i] != 0, front = facts[i].source.front;
-    if (!facts[i].source.covers_sample || (!front && !keep)) continue;
-    for (int y = 0; y < window.height; ++y)
-      for (int x = 0; x < window.width; ++x) {
-        if (!contains(polygon, x + 0.5, y + 0.5)) continue;
-        const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
-                                  static_cast<std::size_t>(x);
-        if (front) picture.visible[pixel] = i;
-        if (front != keep) picture.marks[pixel] = keep ? Mark::extra : Mark::gap;
-      }
-  }
   return picture;
 }
 

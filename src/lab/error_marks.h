@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "lab/coverage/cracks.h"
-#include "lab/facing/facing.h"
 
 namespace edgewise::lab {
 
@@ -40,8 +39,5 @@ MarkedPicture mark_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, 
                             const SourceTruth& source);
 MarkedPicture mark_visible_triangles(std::span<const std::uint32_t> truth,
                                      std::span<const std::uint32_t> drawn, Window window);
-// Shows the front faces, and marks the pixels of faces that a facing test kept or dropped by mistake.
-MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> facts,
-                         std::span<const std::uint8_t> kept);
 
 }  // namespace edgewise::lab

@@ -18,19 +18,14 @@ struct SceneExtent {
   std::string_view name;
   Size size, quick_size;
   double scale, quick_scale;  // of scalable scenes
-  bool timed;
-  double cost_s, quick_cost_s;
 };
 constexpr SceneExtent kExtents[] = {
-    {"torus-knot", kFullHd, kFullHd, 1, 1, true, 3.4, 2.2},
-    {"medium", kFullHd, kNormalSize, 0.15, 0.1, false, 2, 0.5},
-    {"small", kFullHd, kNormalSize, 0.15, 0.05, false, 2.5, 0.5},
-    {"micro", kFullHd, kNormalSize, 0.15, 0.05, false, 2, 0.5},
-    {"large", kFullHd, kNormalSize, 0.4, 0.1, false, 1, 0.3},
-    {"sliver", kFullHd, kNormalSize, 0.02, 0.02, false, 2, 1},
-    {"knots", kFullHd, kNormalSize, 0.1, 0.02, false, 4, 1},
+    {"torus-knot", kFullHd, kFullHd, 1, 1},      {"medium", kFullHd, kNormalSize, 0.15, 0.1},
+    {"small", kFullHd, kNormalSize, 0.15, 0.05}, {"micro", kFullHd, kNormalSize, 0.15, 0.05},
+    {"large", kFullHd, kNormalSize, 0.4, 0.1},   {"sliver", kFullHd, kNormalSize, 0.02, 0.02},
+    {"knots", kFullHd, kNormalSize, 0.1, 0.02},
 };
-constexpr SceneExtent kNormalExtent{"", kFullHd, kNormalSize, 1, 1, false, 1, 0.3};
+constexpr SceneExtent kNormalExtent{"", kFullHd, kNormalSize, 1, 1};
 
 SceneExtent extent_of(std::string_view name) {
   for (const SceneExtent& extent : kExtents)
@@ -105,38 +100,29 @@ class Catalogue {
   Catalogue(bool quick, int subpixel_bits) : quick_(quick), subpixel_bits_(subpixel_bits) {}
 
   std::vector<LabScene> built_in() {
-    // First, because the speed charts use it: a scene on which both references agree.
     for (const CoverageCase& c : coverage_cases()) {
       const bool small = c.size.width < 1000;
-      const bool timed = c.name == "mesh_on_grid" || (c.name == "mesh" && !quick_);
-      const double cost_s = small ? 0.1 : quick_ ? 1.0 : 6.0;
-      add(Family::coverage, c.name, c.summary, timed, small, cost_s, [&c, bits = subpixel_bits_] {
+      add(Family::coverage, c.name, small, [&c, bits = subpixel_bits_] {
         auto floats = c.make();
         auto rounded = snapped(floats, bits);
         return CoverageScene{c.size, std::move(floats), std::move(rounded), bits};
       });
     }
     const Size seen = quick_ ? kQuick : kNormalSize;
-    add(Family::visibility, "deep_soup", "20,000 intersecting triangles, near and far", true, false,
-        quick_ ? 0.5 : 3.0, [seen] { return visibility_scene(deep_soup(20'000), seen); });
+    add(Family::visibility, "deep_soup", false, [seen] { return visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
-    add_projection("fine_sphere", "a sphere of 128 x 192 cells, near the camera",
-                   quick_ ? kNormalSize : kFullHd, quick_ ? 0.5 : 2.0, [quick = quick_](int frame) {
-                     Scene scene = quick ? sphere_scene(32, 48) : sphere_scene(128, 192);
-                     scene.instances.front().angle = static_cast<float>(frame);
-                     return scene;
-                   });
-    for (const VisibilityCase& c : visibility_cases())
-      add(Family::visibility, c.name, c.summary, false, true, 0.1, c.make);
-    for (const FacingCase& c : facing_cases())
-      add(Family::facing, c.name, c.summary, false, true, 0.1, c.make);
+    add_projection("fine_sphere", quick_ ? kNormalSize : kFullHd, [quick = quick_](int frame) {
+      Scene scene = quick ? sphere_scene(32, 48) : sphere_scene(128, 192);
+      scene.instances.front().angle = static_cast<float>(frame);
+      return scene;
+    });
+    for (const VisibilityCase& c : visibility_cases()) add(Family::visibility, c.name, true, c.make);
+    for (const FacingCase& c : facing_cases()) add(Family::facing, c.name, true, c.make);
     add_facing();
-    for (const ClippingCase& c : clipping_cases())
-      add(Family::clipping, c.name, c.summary, false, true, 0.2, c.make);
-    add(Family::clipping, "around_the_eye", "triangles on all sides, across the near and the far plane", true,
-        false, quick_ ? 2.0 : 5.0, [quick = quick_] {
-          return quick ? around_the_camera(5000, kQuick) : around_the_camera(20'000, kNormalSize);
-        });
+    for (const ClippingCase& c : clipping_cases()) add(Family::clipping, c.name, true, c.make);
+    add(Family::clipping, "around_the_eye", false, [quick = quick_] {
+      return quick ? around_the_camera(5000, kQuick) : around_the_camera(20'000, kNormalSize);
+    });
     // Group by family, in the order of the tables.
     std::stable_sort(list_.begin(), list_.end(),
                      [](const auto& a, const auto& b) { return a.family < b.family; });
@@ -145,36 +131,32 @@ class Catalogue {
 
  private:
   template <typename Make>
-  void add(Family family, std::string_view name, std::string_view summary, bool timed, bool small,
-           double cost_s, Make make) {
-    list_.push_back({family, std::string(name), std::string(summary), timed, small, cost_s,
-                     [make] { return AnyScene(make()); }});
+  void add(Family family, std::string_view name, bool small, Make make) {
+    list_.push_back({family, std::string(name), small, [make] { return AnyScene(make()); }});
   }
 
   void add_built_in(const SceneInfo& info) {
     const SceneExtent extent = extent_of(info.name);
     const Size size = quick_ ? extent.quick_size : extent.size;
     const SceneRequest request{size.width, size.height, 0.0f, quick_ ? extent.quick_scale : extent.scale};
-    const double cost_s = quick_ ? extent.quick_cost_s : extent.cost_s;
-    add(Family::coverage, info.name, info.summary, extent.timed, false, cost_s,
+    add(Family::coverage, info.name, false,
         [&info, request, size, bits = subpixel_bits_] { return scene_of(info.make(request), size, bits); });
     if (info.stream) return;
     const Size seen = quick_ ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
-    add(Family::visibility, info.name, info.summary, false, false, cost_s / 2, [&info, for_visibility, seen] {
+    add(Family::visibility, info.name, false, [&info, for_visibility, seen] {
       return visibility_scene(std::get<Scene>(info.make(for_visibility)), seen, Cull::back);
     });
-    add_projection(info.name, info.summary, size, 2 * cost_s, [&info, request](int frame) {
+    add_projection(info.name, size, [&info, request](int frame) {
       SceneRequest at = request;
       at.time = static_cast<float>(frame);
       return std::get<Scene>(info.make(at));
     });
   }
 
-  void add_projection(std::string_view name, std::string_view summary, Size size, double cost_s,
-                      std::function<Scene(int)> make) {
+  void add_projection(std::string_view name, Size size, std::function<Scene(int)> make) {
     const int frames = quick_ ? 1 : 4;
-    add(Family::projection, name, summary, false, false, frames * cost_s, [size, frames, make] {
+    add(Family::projection, name, false, [size, frames, make] {
       return ProjectionScene{size, frames, make};
     });
   }
@@ -182,13 +164,10 @@ class Catalogue {
   void add_facing() {
     constexpr double kTilt = 0.5235987755982988;  // 30 degrees
     const std::size_t many = quick_ ? 20'000 : 100'000, some = quick_ ? 5'000 : 20'000;
-    const double cost_s = quick_ ? 0.3 : 4.0;
-    add(Family::facing, "tilted_faces", "many faces in random directions, 30 degrees off the axis", true,
-        false, cost_s, [many] { return tilted_faces(kTilt, true, many, 3); });
-    add(Family::facing, "tilted_faces_orthographic", "the same under an orthographic camera", true, false,
-        cost_s / 5, [some] { return tilted_faces(kTilt, false, some, 3); });
-    add(Family::facing, "edge_on_faces", "many slivers through pixel centres, almost edge-on", true, false,
-        cost_s, [some] { return edge_on_faces(true, some, 4); });
+    add(Family::facing, "tilted_faces", false, [many] { return tilted_faces(kTilt, true, many, 3); });
+    add(Family::facing, "tilted_faces_orthographic", false,
+        [some] { return tilted_faces(kTilt, false, some, 3); });
+    add(Family::facing, "edge_on_faces", false, [some] { return edge_on_faces(true, some, 4); });
   }
 
   bool quick_;
@@ -202,18 +181,22 @@ std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits) {
   return Catalogue(quick, subpixel_bits).built_in();
 }
 
+LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load, int subpixel_bits) {
+  return {Family::coverage, name, false, [load, subpixel_bits] {
+            const SizedDrawable own = load();
+            return AnyScene(scene_of(own.drawable, own.size, subpixel_bits));
+          }};
+}
+
 std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
                                  int subpixel_bits) {
-  std::vector<LabScene> scenes{{Family::coverage, name, "your file", true, false, 5.0, [load, subpixel_bits] {
-                                  const SizedDrawable own = load();
-                                  return AnyScene(scene_of(own.drawable, own.size, subpixel_bits));
-                                }}};
+  std::vector<LabScene> scenes{own_coverage_scene(name, load, subpixel_bits)};
   if (stream) return scenes;
-  scenes.push_back({Family::visibility, name, "your file", true, false, 5.0, [load] {
+  scenes.push_back({Family::visibility, name, false, [load] {
                       const SizedDrawable own = load();
                       return AnyScene(visibility_scene(std::get<Scene>(own.drawable), own.size, Cull::back));
                     }});
-  scenes.push_back({Family::projection, name, "your file", false, false, 5.0, [load] {
+  scenes.push_back({Family::projection, name, false, [load] {
                       const SizedDrawable own = load();
                       return AnyScene(ProjectionScene{
                           own.size, 1, [scene = std::get<Scene>(own.drawable)](int) { return scene; }});

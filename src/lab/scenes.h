@@ -20,15 +20,12 @@ using AnyScene = std::variant<CoverageScene, VisibilityScene, FacingScene, Clipp
 
 struct LabScene {
   Family family;
-  std::string name, summary;
-  bool timed;     // by the benchmark's suite
+  std::string name;
   bool smallest;  // a small scene that shows a single failure; only these get close-ups
-  double cost_s;  // estimate for the progress bar
   std::function<AnyScene()> make;
 };
 
-// Family by family. `quick`: smaller scenes, and fewer of them are timed. Backends get positions of so many
-// subpixel bits.
+// Family by family. `quick`: smaller scenes. Backends get positions of so many subpixel bits.
 std::vector<LabScene> lab_scenes(bool quick, int subpixel_bits = 8);
 
 // A mesh or stream, and the size of its picture.
@@ -37,6 +34,8 @@ struct SizedDrawable {
   Size size;
 };
 // The user's own scene: one for coverage, and for a mesh one for visibility and one for projection.
+LabScene own_coverage_scene(const std::string& name, std::function<SizedDrawable()> load,
+                            int subpixel_bits = 8);
 std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load,
                                  int subpixel_bits = 8);
 

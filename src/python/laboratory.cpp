@@ -73,9 +73,8 @@ py::tuple needs(Drawn& self, const Matrix& views, const Matrix& projections, int
   py::dict reach;
   const bool is_stream = cameras.empty();
   for (int i = 0; !is_stream && i < lab::kViewPlanes; ++i) {
-    const auto plane = static_cast<lab::ViewPlane>(i);
-    const lab::Reach& r = found.ranges().reach(plane);
-    reach[py::str(std::string(name_of(plane)))] = py::make_tuple(r.beyond, r.crossing);
+    const lab::Reach& r = found.ranges().reach(static_cast<lab::ViewPlane>(i));
+    reach[py::str(name_of(static_cast<lab::Stage>(i)))] = py::make_tuple(r.beyond, r.crossing);
   }
   std::vector<int> bits;
   for (int i = 0; i <= lab::kMostSubpixelBits; ++i) bits.push_back(found.ranges().edge_value_bits(i));

@@ -176,7 +176,7 @@ EXPORT(needs) const char* needs() {
   }
   const Drawable drawable = std::move(stream);
   const StudiedFrame frame{
-      0, drawable, {.width = scene.size.width, .height = scene.size.height, .cull = Cull::none}, false};
+      0, drawable, {.width = scene.size.width, .height = scene.size.height, .cull = Cull::none}};
   CoverageNeeds coverage({});
   coverage.add(frame, scene, 1);
   Ranges ranges;

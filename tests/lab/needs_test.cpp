@@ -244,23 +244,10 @@ TEST(Needs, ComputesTheExactWidthOfEdgeValues) {
       t.vertex[k].x = at.x_px[k] = random.uniform(-reach, reach);
       t.vertex[k].y = at.y_px[k] = random.uniform(-reach, reach);
     }
-    const Needs needs = studied(stream_of({t}), {.ranges_only = true});
+    const Needs needs = studied(stream_of({t}));
     for (const int bits : {1, 4, 8, 16})
       ASSERT_EQ(needs.ranges().edge_value_bits(bits), width_at_every_sample(at, bits)) << i << ' ' << bits;
   }
-}
-
-// Both sides of the largest box: a triangle over half of it, and one that is a pixel larger.
-TEST(Needs, KnowsTheLargestTriangleOfIntegers) {
-  for (const int bits : {5, 8})
-    for (const bool larger : {false, true}) {
-      const double leg = std::floor(std::sqrt(largest_box_px2(32, bits))) + larger;
-      const StreamTriangle t = triangle({0, 0, 0.5}, {leg, 0, 0.5}, {0, leg, 0.5});
-      const Needs needs = studied(stream_of({t}), {.ranges_only = true});
-      EXPECT_EQ(needs.ranges().edge_value_bits(bits) > 32, larger) << bits;
-    }
-  EXPECT_GE(largest_box_px2(32, 5), 1920 * 1080) << "SerenityOS's choice";
-  EXPECT_LT(largest_box_px2(32, 6), 1920 * 1080);
 }
 
 template <int... kBits>

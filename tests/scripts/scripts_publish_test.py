@@ -60,7 +60,7 @@ class PublishTest(FolderTest):
         bench["benchmarks"] += [{"name": "naive/mesh/threads:1", "error_occurred": True, "error_message": "other pixels"},
                                 {**bench["benchmarks"][0], "run_type": "aggregate", "name": "frontend/cube/threads:1_median"}]
         self.file(self.mine / "bench.json", json.dumps(bench))
-        for name, unread in (("accuracy", {"depth": {"max_ulp": 1.0}}), ("needs", {"edges": [{"witness": 9}]})):
+        for name, unread in (("accuracy", {"slits": 1}), ("needs", {"edges": [{"witness": 9}]})):
             data = read(self.mine.parent / f"facts/{name}.json")
             for entry in data["scenes"] if name == "accuracy" else data:
                 entry |= unread

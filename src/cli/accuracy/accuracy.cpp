@@ -70,88 +70,74 @@ std::vector<lab::LabScene> scenes_of_file(const std::string& path, const Accurac
   throw std::invalid_argument(unknown_name("scene", name, names));
 }
 
-// Whether a method broke a promise that holds on every scene: for exact coverage methods, no error against
-// the snapped reference.
-bool broke_promise(const MethodResult& method) {
-  struct Visit {
-    bool exact;
-    bool operator()(const CoverageScores& s) const {
-      return s.visible.unexplained != 0 ||
-             (exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
-    }
-    bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }
-    bool operator()(const lab::FacingScores& s) const { return s.broken != 0; }
-    bool operator()(const lab::ClippingScore& s) const { return s.broken != 0; }
-    bool operator()(const lab::ProjectionScore& s) const { return exact && s.by_projection != 0; }
-  };
-  return std::visit(Visit{method.exact}, method.score);
-}
-
 class Run {
  public:
   explicit Run(const AccuracyPlan& plan) : plan_(plan) {
     check_method_names(plan);
     methods_ = methods_of(plan);
     chosen_ = scenes_of(plan);
-    std::erase_if(chosen_.scenes,
-                  [&](const lab::LabScene& scene) { return methods_.count(scene.family) == 0; });
-    // Its frames are drawn on several threads, which a peer cannot do.
-    in_cube_ = methods_;
-    std::erase_if(in_cube_.coverage, [](const lab::CoverageMethod* method) { return method->one_thread; });
-    chosen_.turning_cube = chosen_.turning_cube && !in_cube_.coverage.empty();
+    std::erase_if(chosen_.scenes, [&](const lab::LabScene& scene) { return !methods_.has(scene.family); });
+    chosen_.turning_cube = chosen_.turning_cube && !methods_.coverage.empty();
     chosen_.choice = chosen_.choice && !methods_.coverage.empty();
     if (chosen_.scenes.empty() && !chosen_.turning_cube && !chosen_.choice)
       throw std::invalid_argument("nothing to do: no selected method belongs to a selected scene's family");
-    for (const lab::LabScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
-    if (chosen_.turning_cube) total_s_ += kCube_s + kMotions_s;
-    if (chosen_.choice) total_s_ += kChoices_s;
   }
 
   AccuracyReport go() {
     AccuracyReport report;
     for (const lab::LabScene& scene : chosen_.scenes) {
-      const Judging judging{plan_, methods_, scene, progress(scene.name, scene.cost_s), report.closeups};
-      judging.progress(0.0);
+      show(scene.name);
+      const Judging judging{plan_, methods_, scene, report.closeups};
       SceneResult result{};
-      result.family = scene.family, result.name = scene.name, result.summary = scene.summary;
+      result.family = scene.family, result.name = scene.name;
       if (scene.smallest) result.kind = SceneKind::small;
       std::visit([&](const auto& made) { judge(made, judging, result); }, scene.make());
       report.scenes.push_back(std::move(result));
-      done_s_ += scene.cost_s;
     }
     if (chosen_.turning_cube) {
-      report.turning_cube =
-          judge_turning_cube(plan_, in_cube_, progress(std::string(kTurningCube), kCube_s), report.closeups);
-      done_s_ += kCube_s;
-      report.motions = judge_motions(plan_, in_cube_, progress("motion", kMotions_s));
-      done_s_ += kMotions_s;
+      show(kTurningCube);
+      report.turning_cube = judge_turning_cube(plan_, methods_, report.closeups);
+      report.motions = judge_motions(plan_, methods_);
     }
-    if (chosen_.choice)
-      report.choices = judge_choices(plan_, methods_, progress(std::string(kChoice), kChoices_s));
+    if (chosen_.choice) {
+      show(kChoice);
+      report.choices = judge_choices(plan_, methods_);
+    }
     return report;
   }
 
  private:
-  std::function<void(double)> progress(const std::string& name, double cost_s) const {
-    return [this, name, cost_s](double fraction) {
-      if (plan_.on_progress) plan_.on_progress((done_s_ + fraction * cost_s) / total_s_, name);
-    };
+  void show(std::string_view scene) {
+    const std::size_t all = chosen_.scenes.size() + chosen_.turning_cube + chosen_.choice;
+    if (plan_.on_progress) plan_.on_progress(static_cast<double>(done_++) / static_cast<double>(all), scene);
   }
 
   const AccuracyPlan& plan_;
-  const double kCube_s = plan_.quick ? 1.5 : 45.0, kMotions_s = plan_.quick ? 2.0 : 8.0,
-               kChoices_s = plan_.quick ? 2.0 : 60.0;
-  ChosenMethods methods_, in_cube_;
+  ChosenMethods methods_;
   AccuracyScenes chosen_;
-  double done_s_ = 0.0, total_s_ = 0.0;
+  std::size_t done_ = 0;
 };
 
 }  // namespace
 
-std::size_t ChosenMethods::count(Family family) const {
-  const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size(),
-                                projection.size()};
-  return counts[static_cast<std::size_t>(family)];
+// For exact coverage methods, no error against the snapped reference.
+bool broke_promise(const MethodResult& method) {
+  return std::visit(
+      [&](const auto& s) {
+        using Of = std::decay_t<decltype(s)>;
+        if constexpr (std::is_same_v<Of, CoverageScores>)
+          return s.visible.unexplained != 0 ||
+                 (method.exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
+        else if constexpr (std::is_same_v<Of, lab::ProjectionScore>)
+          return method.exact && s.by_projection != 0;
+        else
+          return s.broken != 0;
+      },
+      method.score);
+}
+
+bool ChosenMethods::has(Family family) const {
+  return std::ranges::any_of(all(), [&](const auto& method) { return method.first == family; });
 }
 
 std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() const {
@@ -162,11 +148,6 @@ std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() cons
   for (const auto* method : clipping) list.emplace_back(Family::clipping, &method->info);
   for (const auto* method : projection) list.emplace_back(Family::projection, &method->info);
   return list;
-}
-
-const lab::CoverageMethod& ChosenMethods::find_coverage(std::string_view name) const {
-  return **std::find_if(coverage.begin(), coverage.end(),
-                        [&](const lab::CoverageMethod* method) { return method->info.name == name; });
 }
 
 ChosenMethods methods_of(const AccuracyPlan& plan) {
@@ -180,11 +161,15 @@ ChosenMethods methods_of(const AccuracyPlan& plan) {
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);
   choose(plan, Family::projection, lab::projection_methods(), chosen.projection);
-  choose(plan, Family::projection, lab::projections_with_other_bits(), chosen.projection);
   return chosen;
 }
 
 AccuracyScenes scenes_of(const AccuracyPlan& plan) {
+  if (plan.peers) {
+    if (std::ranges::any_of(plan.scenes, [](const std::string& name) { return name != kChoice; }))
+      throw std::invalid_argument("--peers measures the scene 'choice' only");
+    return {.choice = true};
+  }
   const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick, plan.subpixel_bits);
   AccuracyScenes chosen;
   chosen.turning_cube = chosen.choice = plan.scenes.empty();
@@ -224,7 +209,7 @@ std::string closeup_name(Family family, std::string_view scene, std::string_view
 bool AccuracyReport::ok() const {
   if (turning_cube)
     for (const CubeMethodResult& method : turning_cube->methods)
-      if (method.exact && method.snapped.missing.total + method.snapped.extra.total != 0) return false;
+      if (method.exact && method.wrong_snapped != 0) return false;
   return std::all_of(scenes.begin(), scenes.end(), [](const SceneResult& scene) {
     return std::none_of(scene.methods.begin(), scene.methods.end(), broke_promise);
   });

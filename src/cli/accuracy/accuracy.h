@@ -29,7 +29,7 @@ struct AccuracyPlan {
   bool quick = false;                // small sizes, few frames
   bool fit = false;                  // see load_source
   bool pictures = false;             // whether to keep close-ups of errors
-  bool peers = false;                // the rasterizers of other projects, in place of the methods
+  bool peers = false;                // other projects' rasterizers in place of the methods: `choice` only
   int threads = 1;                   // results don't depend on it
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };
@@ -57,6 +57,8 @@ struct MethodResult {
   bool exact;
   Score score;
 };
+// Whether it broke a promise that holds on every scene.
+bool broke_promise(const MethodResult& method);
 
 // What no rate sums: small scenes that show one failure each; and of coverage, meshes, single triangles,
 // which have an outline only, and scenes whose vertices all lie on the grid of 1/256 px, where ours round
@@ -67,9 +69,8 @@ inline constexpr std::string_view kSceneKinds[] = {"scenes", "small scenes", "me
 
 struct SceneResult {
   Family family;
-  std::string name, summary;
+  std::string name;
   SceneKind kind;
-  int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
   // Coverage and projection: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that
   // cover a sample. Counted by the exact reference: the snapped one where there are two, but for facing that
@@ -87,17 +88,11 @@ struct SceneResult {
   }
 };
 
-struct PerFrame {
-  std::uint64_t median = 0, worst = 0, total = 0;
-};
-struct CubeCounts {
-  PerFrame missing, extra;
-};
+// Of all frames; against the source, and `wrong_snapped` against the snapped positions.
 struct CubeMethodResult {
   std::string name;
   bool exact;
-  CubeCounts snapped, source;  // against each reference
-  PerFrame gaps, double_hits;
+  std::uint64_t gaps = 0, double_hits = 0, missing = 0, extra = 0, wrong_snapped = 0;
 };
 struct CubeResult {
   int frames, width, height;
@@ -107,7 +102,7 @@ struct CubeResult {
 // See lab::PixelChanges.
 struct MotionResult {
   std::string name;
-  int frames, width, height;
+  int frames;
   std::uint64_t changes;  // of pixels, by the exact reference before snapping
   std::vector<std::pair<std::string, std::uint64_t>> superfluous;  // of each method
 };
@@ -149,7 +144,7 @@ inline constexpr std::string_view kTurningCube = "turning-cube", kChoice = "choi
 // The scenes that the plan names, family by family, and whether it includes the rotating cube, and the frames
 // of the chart for choosing a method.
 struct AccuracyScenes {
-  std::vector<lab::LabScene> scenes;
+  std::vector<lab::LabScene> scenes = {};
   bool turning_cube = false, choice = false;
 };
 AccuracyScenes scenes_of(const AccuracyPlan& plan);

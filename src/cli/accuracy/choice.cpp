@@ -19,8 +19,7 @@ void add(ChoiceTotal& total, const lab::ChoiceCounts& counts) {
 
 }  // namespace
 
-std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMethods& chosen,
-                                        const std::function<void(double)>& progress) {
+std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMethods& chosen) {
   const auto methods = lab::choice_methods(chosen.coverage);
   const auto scenes = lab::choice_scenes(plan.quick);
   const bool one_thread = std::ranges::any_of(methods, [](const auto& m) { return m.method->one_thread; });
@@ -30,7 +29,6 @@ std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMe
         results.emplace_back(ChoiceResult{scene.name, scene.summary, scene.size, scene.frames});
     for (const auto& method : methods) result.methods.emplace_back(method.name, ChoiceTotal());
     std::mutex mutex;
-    int done = 0;
     parallel_for(one_thread ? 1 : plan.threads, scene.frames, [&](int frame) {
       const Drawable drawable = scene.make(frame);
       const lab::ChoiceJudge judge(drawable, scene.size, 1);
@@ -47,8 +45,6 @@ std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMe
         if (!result.float_projection) result.float_projection.emplace();
         add(*result.float_projection, *projection);
       }
-      progress((static_cast<double>(results.size() - 1) + static_cast<double>(++done) / scene.frames) /
-               static_cast<double>(scenes.size()));
     });
   }
   return results;

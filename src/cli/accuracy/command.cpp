@@ -60,8 +60,8 @@ face. Projection methods are compared with the source, and with its positions ro
 
 Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels,
 or per 10^6 faces. If no error was observed, the number in parentheses is the 95 % upper bound of
-the rate. Where one scene has more than half of a method's errors, all rates without it follow.
-Meshes, single triangles and scenes with vertices on our grid of 1/256 px have tables of their own.
+the rate. Meshes, single triangles and scenes with vertices on our grid of 1/256 px have tables of
+their own.
 
 Cracks are samples at an edge that two triangles share, drawn by neither (gap) or by both (double
 hit), whatever lies behind. They share it if their vertices agree within 2^-10 px and 2^-20 of the
@@ -96,13 +96,14 @@ Action add_accuracy(CLI::App& command) {
       ->delimiter(',')
       ->type_name("NAME");
   command.add_flag("--peers", o->plan.peers,
-                   "Measure only other projects' rasterizers that start here (coverage)");
+                   "Measure other projects' rasterizers in the scene choice");
   add_integer(command, "--subpixel-bits", o->plan.subpixel_bits, kMinSubpixelBits, kMaxSubpixelBits,
               "Of positions that our backends get in the coverage family (8)");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   add_text(command, "--json", "FILE", o->json,
            "Also write all results as JSON; - for stdout, instead of the tables");
-  add_text(command, "--pictures", "DIR", o->pictures, "Folder for pictures of errors on the small scenes");
+  add_text(command, "--pictures", "DIR", o->pictures,
+           "Folder for pictures of coverage and clipping on the small scenes");
   o->plan.threads = default_threads();
   add_integer(command, "--threads", o->plan.threads, 1, kMaxThreads,
               "Threads; results don't depend on it (usable cores)");

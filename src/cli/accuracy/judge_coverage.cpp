@@ -23,8 +23,6 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
   const auto input = scene.input();
   const auto snapped = lab::snapped_coverage(input, scene.window(), judging.plan.threads);
   const lab::SourceJudge source(scene, judging.plan.threads);
-  result.width = scene.size.width;
-  result.height = scene.size.height;
   result.triangles = scene.floats.size();
   result.covered = snapped.covered;
   result.crossings = lab::edge_crossings(source.source(), scene.window());
@@ -38,11 +36,10 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
 
   result.methods.resize(methods.size());
   std::vector<Closeup> closeups(methods.size());
-  std::mutex mutex;
-  std::size_t done = 0;
   const lab::VisibleTriangleJudge visible(scene, crack_judge.surface(), judging.plan.threads);
   result.slits = visible.slits();
-  const auto judge_one = [&](std::size_t i) {
+  parallel_for(judging.plan.threads, static_cast<int>(methods.size()), [&](int n) {
+    const auto i = static_cast<std::size_t>(n);
     const lab::CoverageMethod& method = *methods[i];
     const lab::DrawnRuns drawn(method, input, scene.window());
     const lab::Cracks cracks = crack_judge.find(drawn, scene.snap_bits(method));
@@ -52,14 +49,7 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
     if (judging.plan.pictures && judging.scene.smallest && scores.source.errors() != 0)
       closeups[i] = closeup(closeup_name(Family::coverage, judging.scene.name, method.info.name),
                             mark_coverage(source.truth(), source.of_sources(drawn), cracks, source.source()));
-    const std::lock_guard lock(mutex);
-    judging.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
-  };
-  parallel_for(judging.plan.threads, static_cast<int>(methods.size()), [&](int n) {
-    if (const auto i = static_cast<std::size_t>(n); !methods[i]->one_thread) judge_one(i);
   });
-  for (std::size_t i = 0; i < methods.size(); ++i)
-    if (methods[i]->one_thread) judge_one(i);
   const std::size_t first = judging.closeups.size();
   for (Closeup& c : closeups)
     if (!c.name.empty()) add_unless_known(std::move(c), judging.closeups, first);

@@ -25,28 +25,16 @@ lab::CoverageScene scene_at(std::string_view name, int frame, int subpixel_bits)
                              {.width = kSize.width, .height = kSize.height, .subpixel_bits = subpixel_bits});
 }
 
-// The median of an even number of frames is the upper of the middle two.
-PerFrame per_frame(std::vector<std::uint64_t> counts) {
-  PerFrame result;
-  for (const std::uint64_t n : counts) result.total += n;
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  result.median = *middle;
-  result.worst = *std::max_element(counts.begin(), counts.end());
-  return result;
-}
-
 using Scores = std::vector<CoverageScores>;  // one per frame
 
-template <typename Part, typename Counts>
-PerFrame summary(const Scores& scores, Part CoverageScores::*part, std::uint64_t Counts::*count) {
-  std::vector<std::uint64_t> counts;
-  for (const CoverageScores& score : scores) counts.push_back(score.*part.*count);
-  return per_frame(std::move(counts));
-}
-CubeCounts wrong(const Scores& scores, lab::CoverageScore CoverageScores::*truth) {
-  return {summary(scores, truth, &lab::CoverageScore::missing),
-          summary(scores, truth, &lab::CoverageScore::extra)};
+CubeMethodResult summed(const lab::CoverageMethod& method, const Scores& scores, int subpixel_bits) {
+  CubeMethodResult sum{std::string(method.info.name), is_exact(method, subpixel_bits)};
+  for (const CoverageScores& score : scores) {
+    sum.gaps += score.cracks.gaps, sum.double_hits += score.cracks.double_hits;
+    sum.missing += score.source.missing, sum.extra += score.source.extra;
+    sum.wrong_snapped += score.snapped.errors();
+  }
+  return sum;
 }
 
 // The frame with the most cracks.
@@ -66,12 +54,10 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores, int
 }  // namespace
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
-                              const std::function<void(double)>& progress, std::vector<Closeup>& closeups) {
+                              std::vector<Closeup>& closeups) {
   const auto& judged = methods.coverage;
   const int frames = plan.quick ? kQuickCubeFrames : kCubeFrames;
   std::vector<Scores> scores(judged.size(), Scores(static_cast<std::size_t>(frames)));
-  std::mutex mutex;
-  int done = 0;
   parallel_for(plan.threads, frames / kCubeFramesPerTask, [&](int task) {
     for (int frame = task * kCubeFramesPerTask; frame < (task + 1) * kCubeFramesPerTask; ++frame) {
       const lab::CoverageScene scene = scene_at("cube", frame, plan.subpixel_bits);
@@ -87,28 +73,21 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
             {}};
       }
     }
-    const std::lock_guard lock(mutex);
-    progress(static_cast<double>(done += kCubeFramesPerTask) / frames);
   });
 
   const std::size_t first_closeup = closeups.size();
   CubeResult result{frames, kSize.width, kSize.height, {}};
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const lab::CoverageMethod& method = *judged[i];
-    result.methods.push_back({std::string(method.info.name), is_exact(method, plan.subpixel_bits),
-                              wrong(scores[i], &CoverageScores::snapped),
-                              wrong(scores[i], &CoverageScores::source),
-                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::gaps),
-                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::double_hits)});
-    const CubeMethodResult& counts = result.methods.back();
-    if (plan.pictures && counts.gaps.total + counts.double_hits.total != 0)
+    const CubeMethodResult& counts =
+        result.methods.emplace_back(summed(method, scores[i], plan.subpixel_bits));
+    if (plan.pictures && counts.gaps + counts.double_hits != 0)
       add_unless_known(worst_frame(method, scores[i], plan.subpixel_bits), closeups, first_closeup);
   }
   return result;
 }
 
-std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods,
-                                        const std::function<void(double)>& progress) {
+std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods) {
   const auto& judged = methods.coverage;
   const int frames = plan.quick ? kQuickMotionFrames : kMotionFrames;
   std::vector<MotionResult> results;
@@ -130,11 +109,8 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
         judged[i]->draw(scene.input(), *canvases[i], {});
         changes[i].add(lab::payloads_of(canvases[i]->frame));
       });
-      progress((static_cast<double>(results.size()) + static_cast<double>(frame + 1) / frames) /
-               static_cast<double>(std::size(kMovingScenes)));
     }
-    MotionResult& result = results.emplace_back(
-        MotionResult{std::string(name), frames, kSize.width, kSize.height, truth.sum(), {}});
+    MotionResult& result = results.emplace_back(MotionResult{std::string(name), frames, truth.sum(), {}});
     for (std::size_t i = 0; i < judged.size(); ++i)
       result.superfluous.emplace_back(judged[i]->info.name, changes[i].beyond(truth));
   }

@@ -1,9 +1,6 @@
 // Judges methods on one scene, per family.
 #pragma once
 
-#include <functional>
-#include <mutex>
-
 #include "cli/accuracy/accuracy.h"
 
 namespace edgewise::tools {
@@ -16,9 +13,8 @@ struct ChosenMethods {
   std::vector<const lab::ClippingMethod*> clipping;
   std::vector<const lab::ProjectionMethod*> projection;
 
-  std::size_t count(Family family) const;
+  bool has(Family family) const;
   std::vector<std::pair<Family, const lab::MethodInfo*>> all() const;
-  const lab::CoverageMethod& find_coverage(std::string_view name) const;  // of a chosen method
 };
 ChosenMethods methods_of(const AccuracyPlan& plan);
 
@@ -27,13 +23,11 @@ inline bool is_exact(const lab::CoverageMethod& method, int subpixel_bits) {
   return method.info.exact && (method.backend || subpixel_bits == 8);
 }
 
-// The inputs of judge() and its sinks for progress and close-ups. `progress` is called from several threads,
-// but never concurrently.
+// The inputs of judge() and its sink for close-ups.
 struct Judging {
   const AccuracyPlan& plan;
   const ChosenMethods& methods;
   const lab::LabScene& scene;
-  std::function<void(double)> progress;  // fraction of the scene
   std::vector<Closeup>& closeups;
 };
 
@@ -46,13 +40,9 @@ void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult&
 void judge(const lab::ProjectionScene& scene, const Judging& judging, SceneResult& result);
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
-                              const std::function<void(double)>& progress, std::vector<Closeup>& closeups);
-
-std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods,
-                                        const std::function<void(double)>& progress);
-
-std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMethods& methods,
-                                        const std::function<void(double)>& progress);
+                              std::vector<Closeup>& closeups);
+std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods);
+std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMethods& methods);
 
 // "coverage-drtk_quad-float_le"
 std::string closeup_name(Family family, std::string_view scene, std::string_view method);

@@ -39,15 +39,11 @@ int stability_command(const StabilityOptions& o) {
   }
   JsonOutput json(o.json);
 
-  double all = 0.0, done = 0.0;
-  for (const lab::Sweep* sweep : sweeps) all += sweep->cost;
   Progress progress;
   std::vector<lab::SweepResult> results;
   for (const lab::Sweep* sweep : sweeps) {
-    results.push_back(lab::run_sweep(*sweep, o.quick ? lab::kQuick : lab::kFull, o.threads, [&] {
-      done += sweep->cost / static_cast<double>(sweep->positions.size());
-      progress.show(done / all, sweep->name);
-    }));
+    progress.show(static_cast<double>(results.size()) / static_cast<double>(sweeps.size()), sweep->name);
+    results.push_back(lab::run_sweep(*sweep, o.quick ? lab::kQuick : lab::kFull, o.threads));
     if (json.on_stdout()) continue;
     progress.erase();
     print(stability_table(results.back()) + (sweep == sweeps.back() ? "" : "\n"));
@@ -55,7 +51,7 @@ int stability_command(const StabilityOptions& o) {
   }
   progress.erase();
 
-  if (json.wanted()) json.write(json_text(stability_json(results, o.quick), 2) + '\n');
+  if (json.wanted()) json.write(json_text(stability_json(results), 2) + '\n');
   return kDone;
 }
 
@@ -70,11 +66,9 @@ at least 100,000 trials (--quick: 5,000). Sweeps of coverage have vertices at ra
 as NAME_on_halves at pixel centres, corners and between, or as NAME_on_our_grid on 1/256 px. ours_8,
 ours_12 and ours_15 are all backends, with so many subpixel bits.
 
-Columns: the first value where the method fails, and its error there; its largest error, and the
-value where it occurs; the number of values where it fails. A method fails where it errs in more
-than 1 of 10,000 trials.
-If no error was observed at any value, the number after "<" is the 95 % upper bound of the rate at
-each value: 3 divided by the smallest number of trials at a value.)";
+Columns: the first value where the method fails, which is where it errs in more than 1 of 10,000
+trials; and its largest error at any value, per 10^6 trials. If no error was observed, the number
+after "<" is the 95 % upper bound: 3 divided by the smallest number of trials at a value.)";
 
 }  // namespace
 

@@ -14,6 +14,6 @@ std::string stability_table(const lab::SweepResult& result);
 std::string list_of_sweeps();
 
 nlohmann::json sweep_json(const lab::SweepResult& result);
-nlohmann::json stability_json(std::span<const lab::SweepResult> results, bool quick);
+nlohmann::json stability_json(std::span<const lab::SweepResult> results);
 
 }  // namespace edgewise::tools

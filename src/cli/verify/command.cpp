@@ -95,16 +95,15 @@ int verify_command(VerifyOptions& o) {
 
   Progress progress;
   plan.on_progress = [&](double fraction, std::string_view scene) { progress.show(fraction, scene); };
-  const VerifyTable table(terminal_width());
   const auto show = [&](const std::string& text) {
     if (json.on_stdout()) return;
     progress.erase();
     print(text);
     std::fflush(stdout);
   };
-  std::string header = table.header();  // printed only after the first scene was read
+  std::string header = verify_header();  // printed only after the first scene was read
   const VerifyReport report = verify(plan, [&](const SceneVerdict& verdict) {
-    show(std::exchange(header, {}) + table.line(verdict) + explain(verdict));
+    show(std::exchange(header, {}) + verify_line(verdict) + explain(verdict));
   });
   show(summary(report, plan));
 
@@ -129,8 +128,8 @@ Verify also compares all backends with an oracle, which computes each pixel in e
 arithmetic. It does so on a small image, or at the size of a .tri file whose pixels times triangles
 are at most 7.5 million.
 
-Columns: triangles submitted; triangles emitted by the front end, over all culling modes; frames
-compared; pixels that differ; pixels that differ from the oracle.
+Columns: triangles submitted; frames compared; pixels that differ; pixels that differ from the
+oracle.
 On a difference, verify writes pictures and a .tri file that reproduces it (with the same
 --subpixel-bits), and exits with 1.
 

@@ -37,46 +37,17 @@ std::string names_of(const VerifyPlan& plan) {
   return names;
 }
 
-nlohmann::json mismatch_json(const Mismatch& m) {
-  nlohmann::json json{{"judge", m.judge},
-                      {"backend", m.backend},
-                      {"threads", m.drawn.how.execution.threads},
-                      {"tile_size", m.drawn.how.execution.tile_size},
-                      {"simd_target", name_of(resolve(m.drawn.how.execution.target))},
-                      {"tile_options", lab::describe(m.drawn.how.tiles)},
-                      {"whole_frame", m.drawn.whole_frame},
-                      {"cull", name_of(m.frontend.cull)},
-                      {"payload", name_of_payload(m.frontend.payload)},
-                      {"width", m.frontend.width},
-                      {"height", m.frontend.height},
-                      {"pixels", m.found.pixels},
-                      {"written_outside", m.found.outside},
-                      {"first", {m.found.first_x, m.found.first_y}},
-                      {"files", m.files},
-                      {"values", nlohmann::json::array()}};
-  for (const PixelValue& v : m.values)
-    json["values"].push_back({{"drawn_by", v.drawn_by}, {"depth", v.depth}, {"payload", v.payload}});
-  return json;
-}
-
 nlohmann::json scene_json(const SceneVerdict& v) {
-  nlohmann::json json{{"scene", v.scene},
-                      {"width", v.width},
-                      {"height", v.height},
-                      {"triangles", v.triangles},
-                      {"emitted", v.emitted},
-                      {"configurations", v.configurations},
-                      {"differing_pixels", v.differing_pixels},
-                      {"written_outside", v.written_outside},
-                      {"oracle",
-                       {{"width", v.oracle_width},
-                        {"height", v.oracle_height},
-                        {"configurations", v.oracle_configurations},
-                        {"differing_pixels", v.oracle_differences}}},
-                      {"ok", v.ok()}};
+  nlohmann::json json{
+      {"scene", v.scene},
+      {"configurations", v.configurations},
+      {"differing_pixels", v.differing_pixels},
+      {"written_outside", v.written_outside},
+      {"oracle", {{"configurations", v.oracle_configurations}, {"differing_pixels", v.oracle_differences}}},
+      {"ok", v.ok()}};
   for (const HitCount& h : v.hits) json["pixels_not_hit_once"][h.backend] = h.not_once;
   json["mismatches"] = nlohmann::json::array();
-  for (const Mismatch& m : v.mismatches) json["mismatches"].push_back(mismatch_json(m));
+  for (const Mismatch& m : v.mismatches) json["mismatches"].push_back(explain(m));
   return json;
 }
 
@@ -89,22 +60,16 @@ std::string describe(const lab::DrawOptions& how) {
                      name_of(resolve(e.target)), e.tile_size, tiles.empty() ? "" : ", ", tiles);
 }
 
-constexpr const char *kWide = "{:<12} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n",
-                     *kNarrow = "{:<12} {:>9} {:>8} {:>7} {:>7} {}\n";
+constexpr const char* kLine = "{:<12} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n";
 
-std::string VerifyTable::header() const {
-  return wide_ ? fmt::format(kWide, "scene", "size", "triangles", "emitted", "compared", "differ", "oracle",
-                             "verdict")
-               : fmt::format(kNarrow, "scene", "triangles", "compared", "differ", "oracle", "verdict");
+std::string verify_header() {
+  return fmt::format(kLine, "scene", "size", "triangles", "compared", "differ", "oracle", "verdict");
 }
 
-std::string VerifyTable::line(const SceneVerdict& v) const {
-  const std::string name = printable_within(v.scene, 12), size = fmt::format("{}x{}", v.width, v.height);
-  const char* verdict = v.ok() ? "ok" : "DIFFERS";
-  return wide_ ? fmt::format(kWide, name, size, v.triangles, v.emitted, v.configurations, v.differing_pixels,
-                             v.oracle_differences, verdict)
-               : fmt::format(kNarrow, name, v.triangles, v.configurations, v.differing_pixels,
-                             v.oracle_differences, verdict);
+std::string verify_line(const SceneVerdict& v) {
+  return fmt::format(kLine, printable_within(v.scene, 12), fmt::format("{}x{}", v.width, v.height),
+                     v.triangles, v.configurations, v.differing_pixels, v.oracle_differences,
+                     v.ok() ? "ok" : "DIFFERS");
 }
 
 std::string explain(const SceneVerdict& verdict) {

@@ -63,7 +63,6 @@ struct SceneVerdict {
   std::string scene;
   int width, height;
   std::uint64_t triangles = 0;         // submitted, in one culling mode
-  std::uint64_t emitted = 0;           // by the front end, over all culling modes
   std::uint64_t configurations = 0;    // compared with the reference
   std::uint64_t differing_pixels = 0;  // in all configurations
   std::uint64_t written_outside = 0;   // words outside the image, in all frames
@@ -83,16 +82,9 @@ struct VerifyReport {
 // Checks all scenes of the plan in order; calls `on_scene` after each. Throws as load_source does.
 VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene);
 
-// One line per scene. Below 80 columns, leaves out size and emitted; 60 columns suffice.
-class VerifyTable {
- public:
-  explicit VerifyTable(int terminal_columns) : wide_(terminal_columns >= 80) {}
-  std::string header() const;
-  std::string line(const SceneVerdict& verdict) const;
-
- private:
-  bool wide_;
-};
+// One line per scene, of at most 80 columns.
+std::string verify_header();
+std::string verify_line(const SceneVerdict& verdict);
 
 // "2 threads, avx2, tile 64, no coverage masks"
 std::string describe(const lab::DrawOptions& how);

@@ -70,7 +70,7 @@ FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found) 
 }
 
 std::vector<std::vector<std::uint32_t>> disjoint_sets(std::span<const ScreenTriangle> triangles, int width,
-                                                      int height, int margin_px) {
+                                                      int height) {
   // Each triangle goes to the first set that is free in its whole box. A pixel's bits say which sets of a
   // pass use it; triangles that find no free set wait for the next pass.
   constexpr std::size_t kSetsPerPass = 64;
@@ -83,9 +83,7 @@ std::vector<std::vector<std::uint32_t>> disjoint_sets(std::span<const ScreenTria
     used.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
     later.clear();
     for (const std::uint32_t i : pending) {
-      PixelBox box = pixel_box(triangles[i], width, height);
-      box = {std::max(box.x0 - margin_px, 0), std::max(box.y0 - margin_px, 0),
-             std::min(box.x1 + margin_px, width), std::min(box.y1 + margin_px, height)};
+      const PixelBox box = pixel_box(triangles[i], width, height);
       if (box.empty()) continue;
       const auto row_at = [&](int y) { return used.begin() + std::ptrdiff_t{y} * width; };
       std::uint64_t taken = 0;

@@ -64,11 +64,11 @@ struct FrameDifference {
 FrameDifference compare(const Framebuffer& a, const Framebuffer& b);
 FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found);
 
-// Partitions triangles into sets whose bounding boxes, widened by a margin, are disjoint, so that no
-// triangle of a set occludes another one. Returns indices; triangles whose box holds no pixel are left out.
-// Meshes need few sets, scenes of deep overlap many.
+// Partitions triangles into sets whose bounding boxes are disjoint, so that no triangle of a set occludes
+// another one. Returns indices; triangles whose box holds no pixel are left out. Meshes need few sets, scenes
+// of deep overlap many.
 std::vector<std::vector<std::uint32_t>> disjoint_sets(std::span<const ScreenTriangle> triangles, int width,
-                                                      int height, int margin_px = 0);
+                                                      int height);
 
 // How many triangles a backend draws at each pixel, row by row. Draws a whole frame per disjoint set, so
 // deep overlap is slow; `on_progress` receives the fraction done.

@@ -85,16 +85,13 @@ void FrameDrawer::draw(const Drawable& drawable, const ChoiceMethod& method, Pay
 
 ChoiceJudge::ChoiceJudge(const Drawable& drawable, Size size, int threads)
     : drawable_(drawable), size_(size) {
-  const Window window{size.width, size.height};
   if (const auto* scene = std::get_if<Scene>(&drawable)) {
-    auto truth = std::make_unique<SceneTruth>(*scene, size, options_of(drawable, 0, 0).cull);
-    exact_ = truth->visible_triangles(window, threads);
-    source_ = std::move(truth);
+    source_ = std::make_unique<SceneTruth>(*scene, size, options_of(drawable, 0, 0).cull);
   } else {
     floats_ = float_triangles(std::get<TriangleStream>(drawable));
-    exact_ = exact_visible_triangles(std::span<const FloatTriangle>(floats_), window, threads);
     source_ = std::make_unique<FloatSource>(floats_);
   }
+  exact_ = source_->visible_triangles({size.width, size.height}, threads);
 }
 
 bool ChoiceJudge::is_hole(int x, int y, std::uint32_t shown) const {

@@ -73,22 +73,10 @@ bool promises(const ClippingMethod& method, const ClippingScene& scene) {
   });
 }
 
-// The error of the view distance that a depth encodes, as in ClippingScore::worst_distance.
-double distance_error(const ClippingScene& scene, std::uint32_t triangle, double stored01, double true01) {
-  const double near_z = scene.scene.camera.near_z, far_z = scene.scene.camera.far_z;
-  const glm::uvec3 t = scene.mesh().triangles[triangle];
-  const ToClip to_clip(scene);
-  const auto w = [&](unsigned i) { return std::clamp(to_clip(scene.mesh().positions[i]).w, near_z, far_z); };
-  const auto [nearest, farthest] = std::minmax({w(t.x), w(t.y), w(t.z)});
-  if (farthest - nearest < 0.01 * farthest) return 0;
-  const auto distance = [&](double depth01) { return near_z * far_z / (far_z - depth01 * (far_z - near_z)); };
-  return std::abs(distance(stored01) - distance(true01)) / (farthest - nearest);
-}
-
 // Scores a method's picture pixel by pixel.
 class Scorer {
  public:
-  Scorer(const ClippingScene& scene, const ClippingTruth& truth) : scene_(scene), oracle_(*truth.oracle) {}
+  explicit Scorer(const ClippingTruth& truth) : oracle_(*truth.oracle) {}
 
   void add(int x, int y, std::uint32_t drawn, std::uint32_t truth, double stored01) {
     if (truth != kNoTriangle) ++score.covered;
@@ -117,12 +105,8 @@ class Scorer {
       return false;
     });
     if (stored01 < low - 0x1p-20 || stored01 > high + 0x1p-20) ++score.wrong_depth;
-    const double nearest01 = std::clamp(stored01, low, high);
-    score.worst_distance =
-        std::max(score.worst_distance, distance_error(scene_, triangle, stored01, nearest01));
   }
 
-  const ClippingScene& scene_;
   const ClippingOracle& oracle_;
 };
 
@@ -147,21 +131,17 @@ std::uint64_t correct(std::span<std::uint32_t> picture, Size size, const Clippin
 }
 
 ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, const ClippingTruth& truth) {
-  ClippingFrame frame(scene.size), ours(scene.size);
+  ClippingFrame frame(scene.size);
   method.draw(scene, frame);
-  clipping_methods().front().draw(scene, ours);
-  Scorer scorer(scene, truth);
+  Scorer scorer(truth);
   auto visible_it = truth.visible.begin();
   for (int y = 0; y < scene.size.height; ++y)
     for (int x = 0; x < scene.size.width; ++x, ++visible_it) {
       const std::uint32_t drawn = frame.picture.payload_row(y)[x];
-      if (drawn != ours.picture.payload_row(y)[x]) ++scorer.score.differs_from_ours;
       const double stored = static_cast<double>(frame.picture.depth_row(y)[x]) - contract::kDepthHead;
       scorer.add(x, y, drawn, *visible_it, stored / contract::kDepthRange);
     }
   ClippingScore& score = scorer.score;
-  score.not_a_number = frame.not_a_number;
-  score.out_of_range = frame.out_of_range;
   if (promises(method, scene)) score.broken = score.wrong() - score.depth_ties;
   return score;
 }

@@ -41,9 +41,6 @@ struct ClippingFrame {
   ViewVolume view{};
   std::vector<ClipVertex> vertices;
   std::vector<ScreenTriangle> triangles;
-  // Counts of one draw: values that an unguarded program would write out of bounds or draw as noise.
-  std::uint64_t not_a_number = 0;  // triangles dropped because a division gave NaN or infinity
-  std::uint64_t out_of_range = 0;  // vertices clamped to the guard band or to the depth range
 };
 
 struct ClippingMethod {
@@ -96,11 +93,6 @@ struct ClippingScore {
   std::uint64_t depth_ties = 0;  // depth ties within tolerance, among wrong_triangle
   std::uint64_t wrong_depth =
       0;  // right triangle, but no depth that it has within kHairlinePx, by more than 2^-20
-  // At pixels with the right triangle: the largest error of the view distance that the depth encodes, as a
-  // fraction of the range from the triangle's nearest vertex to its farthest.
-  double worst_distance = 0;
-  std::uint64_t differs_from_ours = 0;  // pixels that show another triangle than the first method's
-  std::uint64_t not_a_number = 0, out_of_range = 0;  // as in ClippingFrame
   std::uint64_t broken = 0;  // wrong pixels, beyond hairline, that the promise rules out
 
   std::uint64_t wrong() const { return missing + extra + wrong_triangle + wrong_depth; }
@@ -109,7 +101,7 @@ ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, co
 
 // Small scenes on which methods fail.
 struct ClippingCase {
-  std::string_view name, summary;
+  std::string_view name;
   ClippingScene (*make)();
 };
 std::span<const ClippingCase> clipping_cases();

@@ -1,5 +1,5 @@
-// Shared by the clipping methods: transform, project, snap, draw. Every conversion to an integer is guarded,
-// and values out of range are counted.
+// Shared by the clipping methods: transform, project, snap, draw. Conversions to integers clamp values that
+// are out of range.
 #pragma once
 
 #include <algorithm>
@@ -65,21 +65,11 @@ inline Projected divide(const ClipVertex& v, const ViewVolume& view) {
           depth_scale * (w - near_z) * inverse_w};
 }
 
-// Snaps a polygon and appends it as a fan. Drops polygons with NaN or infinite coordinates, and counts them.
+// Snaps a polygon and appends it as a fan. Drops polygons with NaN or infinite coordinates.
 inline void emit(std::span<const Projected> polygon, std::uint32_t payload, bool cull_back,
                  ClippingFrame& frame) {
-  constexpr float kGuardPx = contract::kMaxImageSide;
-  // Rounding may put a cut vertex slightly outside its plane.
-  constexpr float kSlackPx = 1.0f, kSlack01 = 1e-5f;
-  for (const Projected& p : polygon) {
-    if (!std::isfinite(p.x_px) || !std::isfinite(p.y_px) || !std::isfinite(p.z01)) {
-      ++frame.not_a_number;
-      return;
-    }
-    if (std::max(std::abs(p.x_px), std::abs(p.y_px)) > kGuardPx + kSlackPx || p.z01 < -kSlack01 ||
-        p.z01 > 1 + kSlack01)
-      ++frame.out_of_range;
-  }
+  for (const Projected& p : polygon)
+    if (!std::isfinite(p.x_px) || !std::isfinite(p.y_px) || !std::isfinite(p.z01)) return;
   for (std::size_t i = 2; i < polygon.size(); ++i) {
     ScreenTriangle t{};
     const std::size_t corners[3] = {0, i - 1, i};
@@ -116,7 +106,6 @@ inline std::optional<std::uint16_t> sides_of(const ClipVertex (&v)[3], const Vie
 template <typename Transform, typename PerTriangle>
 void draw_transformed(const ClippingScene& scene, ClippingFrame& frame, Transform&& to_clip,
                       PerTriangle&& per_triangle) {
-  frame.not_a_number = frame.out_of_range = 0;
   frame.view = view_of(scene);
   frame.triangles.clear();
   const Mesh& mesh = scene.mesh();

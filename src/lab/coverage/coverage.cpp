@@ -66,8 +66,7 @@ std::int32_t to_q15(float px, int bits) {
 }
 
 CoverageMethod make_from(const BackendInfo& backend, bool fills) {
-  const bool scalar_only = backend.name == "naive";  // ignores Execution::target
-  constexpr double kSnap = 0.00277;                  // half a sub-unit on both axes: sqrt(2) / 512
+  constexpr double kSnap = 0.00277;  // half a sub-unit on both axes: sqrt(2) / 512
   return {
       {backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
        true},
@@ -82,8 +81,7 @@ CoverageMethod make_from(const BackendInfo& backend, bool fills) {
       true,
       true,
       fills,
-      !scalar_only,
-      scalar_only ? "scalar on purpose: the plainest implementation of the contract" : ""};
+      backend.name != "naive"};  // which ignores Execution::target
 }
 
 }  // namespace

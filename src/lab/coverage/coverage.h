@@ -66,9 +66,6 @@ struct CoveragePromise {
   std::optional<int> snap_bits = {};
 };
 inline constexpr int kMostSnapBits = 16;
-// It rounds in a way that is not known. Its folds cannot be counted, and its cracks are judged by the
-// positions as they are.
-inline constexpr int kUnknownSnap = -1;
 
 struct CoverageMethod {
   MethodInfo info;
@@ -77,16 +74,14 @@ struct CoverageMethod {
   // depth test. All SIMD targets draw the same pixels and depths.
   std::function<void(const CoverageInput&, Canvas&, const Execution&)> draw;
   // Appends, in any order, each triangle's pixels before the depth test, found by the same code as in
-  // draw().
+  // draw(). Peers have none.
   std::function<void(const CoverageInput&, Window, std::vector<Run>&)> runs;
   bool threaded = false;        // draw uses the execution's threads
   bool contract_depth = false;  // draw writes the frame's depths, in units of rule 6
   bool backend = false;         // of the library: takes snapped positions of any subpixel bits
   bool fills = true;            // false for backends that do not fill triangles; these are not scored
-  // Whether draw uses the execution's SIMD target. If not, `simd_note` says why a SIMD form is missing.
-  bool simd = false;
-  std::string_view simd_note = {};
-  bool one_thread = false;  // all functions must run on one thread: an OpenGL context belongs to a thread
+  bool simd = false;            // draw uses the execution's SIMD target
+  bool one_thread = false;      // all functions must run on one thread: an OpenGL context belongs to a thread
 };
 
 // The methods of methods.cpp.
@@ -146,7 +141,6 @@ CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions
 // Small scenes on which coverage methods fail, as unsnapped screen triangles.
 struct CoverageCase {
   std::string_view name;
-  std::string_view summary;  // one line
   Size size;
   std::vector<FloatTriangle> (*make)();
 };

@@ -400,7 +400,7 @@ const CrackJudge::Rounded& CrackJudge::rounded(int bits) const {
 Cracks CrackJudge::find(const DrawnRuns& drawn, std::optional<int> snap_bits) const {
   Cracks cracks;
   std::span<const Run> own = runs_;
-  if (snap_bits && snap_bits != kUnknownSnap) {
+  if (snap_bits) {
     const Rounded& found = rounded(*snap_bits);
     own = found.runs;
     cracks.folds = found.folds;

@@ -107,7 +107,7 @@ class CrackJudge {
   CrackJudge(std::span<const FloatTriangle> triangles, const CoverageTruth& floats);
 
   const Surface& surface() const { return surface_; }
-  // `snap_bits` as in CoveragePromise, or kUnknownSnap.
+  // `snap_bits` as in CoveragePromise.
   Cracks find(const DrawnRuns& drawn, std::optional<int> snap_bits) const;
 
  private:

@@ -122,8 +122,7 @@ CoverageMethod make_coverage_method(const MethodInfo& info, const CoveragePromis
                   Method::cover(input.floats[i].at, window, plot);
                 }
               },
-          .simd = forms != nullptr,
-          .simd_note = forms != nullptr ? "" : "no SIMD form is written"};
+          .simd = forms != nullptr};
 }
 
 // Rounds half to even, for |v| < 2^51: the sum with 1.5 * 2^52 has no fraction bits.

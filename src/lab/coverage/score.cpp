@@ -139,16 +139,6 @@ void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
   }
 }
 
-std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window w) {
-  std::vector<std::uint32_t> hits(static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height), 0);
-  for (const Run& run : runs) {
-    if (run.y < w.y0 || run.y >= w.y1()) continue;
-    std::uint32_t* row = &hits[static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width)];
-    for (int x = std::max(run.x0, w.x0); x < std::min(run.x1, w.x1()); ++x) ++row[x - w.x0];
-  }
-  return hits;
-}
-
 ErrorDistance::ErrorDistance(std::span<const glm::dvec3> outline) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   low_x_ = low_y_ = kInfinity, high_x_ = high_y_ = -kInfinity;
@@ -194,8 +184,7 @@ DrawnRuns::DrawnRuns(const CoverageMethod& method, const CoverageInput& input, W
           window) {}
 
 CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const SourceTruth& source) {
-  CoverageScore score{
-      .triangles = source.size(), .covered = truth.covered, .out_of_bounds = drawn.out_of_bounds};
+  CoverageScore score{.out_of_bounds = drawn.out_of_bounds};
   for_each_difference(truth.runs, drawn.runs, [&](const Run& run, bool missing) {
     (missing ? score.missing : score.extra) += length(run);
     const ErrorDistance distance(source.outline(run.triangle));
@@ -212,10 +201,14 @@ CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
   return score_coverage(truth, drawn, FloatSource(triangles));
 }
 
+const SourceTruth& source_of(const CoverageScene& scene, const FloatSource& floats) {
+  return scene.truth ? static_cast<const SourceTruth&>(*scene.truth) : floats;
+}
+
 SourceJudge::SourceJudge(const CoverageScene& scene, int threads)
     : scene_(scene),
       by_floats_(scene.floats),
-      source_(scene.truth ? static_cast<const SourceTruth&>(*scene.truth) : by_floats_),
+      source_(source_of(scene, by_floats_)),
       floats_(float_coverage(scene.input(), scene.window(), threads)) {
   if (scene.truth) exact_ = coverage_of(source_, scene.window(), threads);
 }

@@ -46,11 +46,10 @@ struct DrawnRuns {
 };
 
 struct CoverageScore {
-  std::uint64_t triangles = 0, covered = 0;  // covered: (triangle, pixel) pairs, in truth
-  std::uint64_t missing = 0, extra = 0;      // pairs only in the truth; pairs only of the method
-  std::uint64_t out_of_bounds = 0;           // not counted as extra
-  std::uint64_t out_of_box = 0;  // extra pairs whose pixel does not touch the triangle's bounding box
-  double worst_px = 0.0;         // largest ErrorDistance::at() of a wrong pair
+  std::uint64_t missing = 0, extra = 0;  // (triangle, pixel) pairs only in the truth; only of the method
+  std::uint64_t out_of_bounds = 0;       // not counted as extra
+  std::uint64_t out_of_box = 0;          // extra pairs whose pixel does not touch the triangle's bounding box
+  double worst_px = 0.0;                 // largest ErrorDistance::at() of a wrong pair
 
   std::uint64_t errors() const { return missing + extra; }
   bool operator==(const CoverageScore&) const = default;
@@ -58,6 +57,9 @@ struct CoverageScore {
 CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const SourceTruth& source);
 CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
                              std::span<const FloatTriangle> triangles);
+
+// What a scene is judged by: its own truth, or that of its floats, which `floats` holds.
+const SourceTruth& source_of(const CoverageScene& scene, const FloatSource& floats);
 
 // Judges coverage methods on a scene from its source on. The scene must outlive it.
 class SourceJudge {
@@ -88,9 +90,6 @@ constexpr double per_million(std::uint64_t count, std::uint64_t crossings) {
 // must be sorted.
 void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
                          const std::function<void(const Run&, bool missing)>& on_run);
-
-// Hits at each pixel of the window, row by row. Pixels outside the window are ignored.
-std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window window);
 
 // How far a wrong sample lies from the edges and the bounding box of a triangle's outline. An edge without
 // length counts as distance 0.

@@ -1,60 +1,19 @@
 #include "lab/coverage/visible.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "edgewise/contract.h"
-#include "lab/projection/truth.h"
 
 namespace edgewise::lab {
 
 namespace {
-
-double float_ulp(double depth01) {
-  constexpr double kLeast = 0x1p-8;
-  const auto size = static_cast<float>(std::max(std::abs(depth01), kLeast));
-  return std::ldexp(1.0, std::ilogb(size) - (std::numeric_limits<float>::digits - 1));
-}
 
 template <typename Visit>
 void each_pixel(Size size, Visit&& visit) {
   std::size_t pixel = 0;
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) visit(x, y, pixel++);
-}
-
-// Returns their number. Calls on_wrong(drawn, expected) for each. number(payload) is the triangle's number in
-// the truth.
-template <typename Number, typename OnWrong>
-std::uint64_t wrong_pixels(const Canvas& canvas, const VisibleTriangles& truth, Number&& number,
-                           OnWrong&& on_wrong) {
-  std::uint64_t wrong = 0;
-  each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
-    const std::uint32_t drawn = number(canvas.frame.payload_row(y)[x]), expected = truth.triangle[pixel];
-    if (drawn == expected) return;
-    ++wrong;
-    on_wrong(drawn, expected);
-  });
-  return wrong;
-}
-
-// error(x, y, exact) returns an error in ulps.
-template <typename Number, typename Error>
-void add_depth_errors(VisibleTriangleScore& score, const Canvas& canvas, const VisibleTriangles& truth,
-                      Number&& number, Error&& error) {
-  double squares = 0.0;
-  std::uint64_t count = 0;
-  each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
-    const std::uint32_t visible_id = truth.triangle[pixel];
-    if (visible_id == kNoTriangle || number(canvas.frame.payload_row(y)[x]) != visible_id) return;
-    const double ulp = error(x, y, truth.depth[pixel]);
-    score.max_ulp = std::max(score.max_ulp, ulp);
-    squares += ulp * ulp;
-    ++count;
-  });
-  if (count > 0) score.rms_ulp = std::sqrt(squares / static_cast<double>(count));
 }
 
 enum class Shown : std::uint8_t { background, single, mesh };
@@ -83,8 +42,9 @@ CoverageScene numbered(CoverageScene scene) {
 VisibleTriangleJudge::VisibleTriangleJudge(CoverageScene scene, const Surface& surface, int threads)
     : scene_(numbered(std::move(scene))),
       by_grid_(exact_visible_triangles(std::span(scene_.snapped), scene_.window(), threads)),
-      by_source_(scene_.truth ? scene_.truth->visible_triangles(scene_.window(), threads)
-                              : exact_visible_triangles(std::span(scene_.floats), scene_.window(), threads)) {
+      floats_(scene_.floats),
+      source_(source_of(scene_, floats_)),
+      by_source_(source_.visible_triangles(scene_.window(), threads)) {
   for (std::uint32_t i = 0; i < scene_.floats.size(); ++i)
     shares_edge_.push_back(surface.across(i, 0) != kNoTriangle || surface.across(i, 1) != kNoTriangle ||
                            surface.across(i, 2) != kNoTriangle);
@@ -105,56 +65,37 @@ std::uint64_t VisibleTriangleJudge::slits() const {
 }
 
 VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) const {
-  const FloatSource floats(scene_.floats);
-  const SourceTruth& sources = scene_.truth ? static_cast<const SourceTruth&>(*scene_.truth) : floats;
-  const auto in_scene = [](std::uint32_t payload) { return payload - 1; };  // kNoTriangle for the background
-  const auto in_source = [&](std::uint32_t payload) {
-    return payload == 0 ? kNoTriangle : source(payload - 1);
-  };
   Canvas canvas(scene_.size.width, scene_.size.height);
   method.draw(scene_.input(), canvas, {});
-  VisibleTriangleScore score{.wrong_snapped = wrong_pixels(canvas, by_grid_, in_scene, [](auto, auto) {})};
-  score.wrong_source =
-      wrong_pixels(canvas, by_source_, in_source, [&](std::uint32_t drawn, std::uint32_t expected) {
-        score.wrong_surface += drawn == kNoTriangle || expected == kNoTriangle ||
-                               !touch(sources.outline(drawn), sources.outline(expected));
-      });
+  VisibleTriangleScore score;
   std::vector<Shown> picture;
-  each_pixel(scene_.size, [&](int x, int y, std::size_t) {
-    const std::uint32_t payload = canvas.frame.payload_row(y)[x];
-    picture.push_back(payload == 0                ? Shown::background
-                      : shares_edge_[payload - 1] ? Shown::mesh
-                                                  : Shown::single);
+  each_pixel(scene_.size, [&](int x, int y, std::size_t pixel) {
+    const std::uint32_t drawn = canvas.frame.payload_row(y)[x] - 1;  // kNoTriangle for the background
+    picture.push_back(drawn == kNoTriangle  ? Shown::background
+                      : shares_edge_[drawn] ? Shown::mesh
+                                            : Shown::single);
+    if (drawn != by_grid_.triangle[pixel]) {
+      ++score.wrong_snapped;
+      score.unexplained += method.contract_depth && method.info.exact && !explains(drawn, x, y);
+    }
+    const std::uint32_t shown = drawn == kNoTriangle ? drawn : source(drawn),
+                        expected = by_source_.triangle[pixel];
+    if (shown == expected) return;
+    ++score.wrong_source;
+    score.wrong_surface += shown == kNoTriangle || expected == kNoTriangle ||
+                           !touch(source_.outline(shown), source_.outline(expected));
   });
   score.slits = slits_of(picture, scene_.size);
-  if (method.contract_depth) {
-    add_depth_errors(score, canvas, by_grid_, in_scene, [&](int x, int y, double exact) {
-      return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);
-    });
-    if (method.info.exact) score.unexplained = unexplained(canvas);
-  } else {
-    add_depth_errors(score, canvas, by_source_, in_source, [&](int x, int y, double exact) {
-      return std::abs(double{canvas.depth[static_cast<std::size_t>(y * canvas.frame.stride() + x)]} - exact) /
-             float_ulp(exact);
-    });
-  }
   return score;
 }
 
-std::uint64_t VisibleTriangleJudge::unexplained(const Canvas& canvas) const {
-  std::uint64_t count = 0;
-  each_pixel(scene_.size, [&](int x, int y, std::size_t pixel) {
-    const std::uint32_t drawn = canvas.frame.payload_row(y)[x] - 1, visible_id = by_grid_.triangle[pixel];
-    if (drawn == visible_id) return;
-    const auto explains = [&] {
-      if (drawn == kNoTriangle || visible_id == kNoTriangle) return false;
-      const SnappedTruth truth(scene_.snapped[drawn]);
-      return truth.covers(x, y) &&
-             truth.depth(x, y).get_d() - by_grid_.depth[pixel] <= 2.0 * contract::kDepthError;
-    };
-    count += !explains();
-  });
-  return count;
+bool VisibleTriangleJudge::explains(std::uint32_t drawn, int x, int y) const {
+  if (drawn == kNoTriangle || by_grid_.triangle_at(x, y) == kNoTriangle) return false;
+  const SnappedTruth truth(scene_.snapped[drawn]);
+  const auto pixel =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(scene_.size.width) + static_cast<std::size_t>(x);
+  return truth.covers(x, y) &&
+         truth.depth(x, y).get_d() - by_grid_.depth[pixel] <= 2.0 * contract::kDepthError;
 }
 
 }  // namespace edgewise::lab

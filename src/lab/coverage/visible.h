@@ -1,5 +1,5 @@
-// Scores a coverage method's whole picture: the visible triangle of each pixel, and its depth. Coverage alone
-// does not determine these: a lost pixel of an occluded triangle is invisible, and a depth plane evaluated in
+// Scores a coverage method's whole picture: the visible triangle of each pixel. Coverage alone does not
+// determine it: a lost pixel of an occluded triangle is invisible, and a depth plane evaluated in
 // floats may show the wrong triangle.
 #pragma once
 
@@ -26,10 +26,6 @@ struct VisibleTriangleScore {
   // not explain. The drawn triangle does not cover them, or lies farther behind the visible one than both
   // errors together.
   std::uint64_t unexplained = 0;
-  // Depth errors at pixels that show the right triangle. For methods that write contract depths: against the
-  // snapped truth, in units of rule 6 (2^-31 of the range). For all others: against the source, in float
-  // ulps at the exact depth, or at 2^-8 if that is nearer to 0.
-  double max_ulp = 0.0, rms_ulp = 0.0;
 
   bool operator==(const VisibleTriangleScore&) const = default;
 };
@@ -38,18 +34,23 @@ struct VisibleTriangleScore {
 class VisibleTriangleJudge {
  public:
   VisibleTriangleJudge(CoverageScene scene, const Surface& surface, int threads);
+  VisibleTriangleJudge(const VisibleTriangleJudge&) = delete;
   VisibleTriangleScore score(const CoverageMethod& method) const;
   std::uint64_t slits() const;  // of the source
 
  private:
-  std::uint64_t unexplained(const Canvas& canvas) const;
+  // Whether the depth error of rule 6 may show this triangle of the scene instead of the visible one.
+  bool explains(std::uint32_t drawn, int x, int y) const;
 
   // The triangle of the source that triangle `i` of the scene comes from.
   std::uint32_t source(std::uint32_t i) const { return scene_.truth ? scene_.sources[i] : i; }
 
   CoverageScene scene_;            // payloads number the triangles from 1
   std::vector<bool> shares_edge_;  // by triangle of the scene
-  VisibleTriangles by_grid_, by_source_;
+  VisibleTriangles by_grid_;
+  FloatSource floats_;
+  const SourceTruth& source_;
+  VisibleTriangles by_source_;
 };
 
 }  // namespace edgewise::lab

@@ -50,24 +50,17 @@ FacingScene notch_second() {
 constexpr double kTilt = 0.5235987755982988;  // 30 degrees
 
 constexpr std::array kCases = {
-    FacingCase{"box_beside_the_axis", "a box whose visible side has n.z = 0", box_beside_the_axis},
-    FacingCase{"box_orthographic", "the same box, where that side is edge-on", box_orthographic},
-    FacingCase{"tilted_perspective", "random directions, 30 degrees off the axis",
-               [] { return tilted_faces(kTilt, true, 1000, 1); }},
-    FacingCase{"tilted_orthographic", "the same under an orthographic camera",
-               [] { return tilted_faces(kTilt, false, 1000, 1); }},
-    FacingCase{"edge_on", "slivers through pixel centres, almost edge-on",
-               [] { return edge_on_faces(true, 2000, 2); }},
-    FacingCase{"edge_on_orthographic", "the same under an orthographic camera",
-               [] { return edge_on_faces(false, 2000, 2); }},
-    FacingCase{"polygons", "regular polygons, spread over the view",
-               [] { return polygons(Shape::regular, 500, 5); }},
-    FacingCase{"irregular_polygons", "polygons with reflex corners, some at the second vertex",
-               [] { return polygons(Shape::irregular, 500, 6); }},
-    FacingCase{"bent_polygons", "polygons that are not planar: normals and three vertices may mislead",
-               [] { return polygons(Shape::bent, 500, 7); }},
-    FacingCase{"notch_second", "a concave polygon with its notch at vertex 2: vertices 1 to 3 mislead",
-               notch_second},
+    // A box whose visible side has n.z = 0.
+    FacingCase{"box_beside_the_axis", box_beside_the_axis},
+    FacingCase{"box_orthographic", box_orthographic},
+    FacingCase{"tilted_perspective", [] { return tilted_faces(kTilt, true, 1000, 1); }},
+    FacingCase{"tilted_orthographic", [] { return tilted_faces(kTilt, false, 1000, 1); }},
+    FacingCase{"edge_on", [] { return edge_on_faces(true, 2000, 2); }},
+    FacingCase{"edge_on_orthographic", [] { return edge_on_faces(false, 2000, 2); }},
+    FacingCase{"polygons", [] { return polygons(Shape::regular, 500, 5); }},
+    FacingCase{"irregular_polygons", [] { return polygons(Shape::irregular, 500, 6); }},
+    FacingCase{"bent_polygons", [] { return polygons(Shape::bent, 500, 7); }},
+    FacingCase{"notch_second", notch_second},
 };
 
 glm::vec3 unit_vector(Random& random) {

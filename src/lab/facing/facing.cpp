@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "edgewise/scene.h"
 #include "frontend/fixed.h"
 
@@ -155,16 +156,10 @@ void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<co
       (8 * double{view.focal_px} * reach * (view.perspective ? std::max(1.0, reach) : 1.0) + 2 * extent);
 }
 
-}  // namespace
-
-FacingTruth::FacingTruth(const FacingScene& scene) : scene_(scene), object_(0.0) {
-  for (const auto& p : scene.positions)
-    object_ += glm::dvec3(p) / static_cast<double>(scene.positions.size());
-}
-
-FaceFacts FacingTruth::facts(const Face& face) const {
-  const FacingView& view = scene_.view;
-  const auto vertices = std::span(scene_.positions).subspan(face.first, face.count);
+// `object` is the mean of all positions.
+FaceFacts facts_of(const FacingScene& scene, const Face& face, glm::dvec3 object) {
+  const FacingView& view = scene.view;
+  const auto vertices = std::span(scene.positions).subspan(face.first, face.count);
   const Projector exactly(view);
   const FloatProjector in_float(view);
   std::vector<Point> floats;
@@ -177,10 +172,12 @@ FaceFacts FacingTruth::facts(const Face& face) const {
   FaceFacts facts{};
   facts.snapped = side_of<SnappedPoint>(snapped, view.size);
   facts.source = side_of<Point>(floats, view.size);
-  measure_rays(facts, vertices, object_, view);
+  measure_rays(facts, vertices, object, view);
   measure_screen(facts, vertices, floats, view);
   return facts;
 }
+
+}  // namespace
 
 void FacingScene::add_face(std::size_t first) {
   const auto vertices = std::span<const glm::vec3>(positions).subspan(first);
@@ -188,20 +185,22 @@ void FacingScene::add_face(std::size_t first) {
                    face_normal(vertices)});
 }
 
-std::vector<FaceFacts> facing_facts(const FacingScene& scene) {
-  const FacingTruth truth(scene);
-  std::vector<FaceFacts> all;
-  for (const Face& face : scene.faces) all.push_back(truth.facts(face));
+std::vector<FaceFacts> facing_facts(const FacingScene& scene, int threads) {
+  glm::dvec3 object(0.0);
+  for (const auto& p : scene.positions) object += glm::dvec3(p) / static_cast<double>(scene.positions.size());
+  std::vector<FaceFacts> all(scene.faces.size());
+  parallel_for(threads, static_cast<int>(all.size()), [&](int n) {
+    const auto i = static_cast<std::size_t>(n);
+    all[i] = facts_of(scene, scene.faces[i], object);
+  });
   return all;
 }
 
 FacingScores score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts) {
-  std::vector<std::uint8_t> kept(scene.faces.size()), ours(kept.size());
+  std::vector<std::uint8_t> kept(scene.faces.size());
   method.classify(scene, kept);
-  facing_methods().front().classify(scene, ours);
   FacingScores scores;
   for (std::size_t i = 0; i < facts.size(); ++i) {
-    if (kept[i] != ours[i]) ++scores.disagreements;
     const auto add = [&](FacingScore& score, const FaceSide& side, bool may_err) {
       const bool misled = method.by_normal ? facts[i].normal_differs : side.first_three_differ;
       if (!side.covers_sample) return;

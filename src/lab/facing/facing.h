@@ -81,16 +81,7 @@ struct FaceFacts {
   double magnification;
   double rounding_px;  // bound on the error of projecting these vertices in float
 };
-class FacingTruth {
- public:
-  explicit FacingTruth(const FacingScene& scene);  // the scene must outlive it
-  FaceFacts facts(const Face& face) const;
-
- private:
-  const FacingScene& scene_;
-  glm::dvec3 object_;  // the mean of all positions
-};
-std::vector<FaceFacts> facing_facts(const FacingScene& scene);
+std::vector<FaceFacts> facing_facts(const FacingScene& scene, int threads = 1);
 
 struct FacingMethod {
   MethodInfo info;
@@ -114,7 +105,6 @@ struct FacingScore {
 };
 struct FacingScores {
   FacingScore snapped, source;
-  std::uint64_t disagreements = 0;  // with the first method (ours), of all faces
   // Broken promises, without misled ones: misclassified against the source though may_err is false, or
   // by an exact method against the snapped truth.
   std::uint64_t broken = 0;
@@ -123,7 +113,7 @@ FacingScores score(const FacingMethod& method, const FacingScene& scene, std::sp
 
 // Small scenes on which methods fail.
 struct FacingCase {
-  std::string_view name, summary;
+  std::string_view name;
   FacingScene (*make)();
 };
 std::span<const FacingCase> facing_cases();

@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "lab/coverage/cracks.h"
 #include "lab/coverage/fixed_edges.h"
+#include "lab/error_marks.h"
 
 namespace edgewise::lab {
 
@@ -49,7 +50,6 @@ void add_witness(const MarkedPicture& marked, std::span<const Mark> kinds, const
   answer.witness =
       Witness{frame.index, x, y, triangles_at(truth, x, y, scene), triangles_at(runs, x, y, scene)};
   answer.wrong_px = wrong_px;
-  if (frame.keep_pictures) answer.picture = marked;
 }
 
 }  // namespace

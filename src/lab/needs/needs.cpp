@@ -11,9 +11,8 @@ void Needs::add(const Drawable& drawable, FrontendOptions options) {
   options.payload = Payload::id;
   options.shade = false;
   options.keep_unsnapped = options.keep_states = false;
-  const StudiedFrame frame{frames_++, drawable, options, options_.keep_pictures};
+  const StudiedFrame frame{frames_++, drawable, options};
   const auto reach = ranges_.add(frame);
-  if (options_.ranges_only) return;
   const CoverageScene scene = coverage_scene(drawable, options);
   pipelines_.add(frame, scene, reach, options_.threads);
   coverage_.add(frame, scene, options_.threads);

@@ -43,8 +43,6 @@ class CoverageNeeds {
 struct NeedsOptions {
   std::uint64_t tolerance_px = 0;           // wrong pixels per frame of a right pipeline
   std::optional<double> displacement = {};  // see CoverageNeeds
-  bool keep_pictures = false;               // see StudiedFrame
-  bool ranges_only = false;                 // draws nothing; then only ranges() has a result
   int threads = 1;
 };
 

@@ -253,8 +253,9 @@ class Assembly {
 }  // namespace
 
 std::string name_of(Stage stage) {
-  constexpr const char* kNames[] = {"facing test", "subpixel bits", "visibility", "depth buffer"};
-  return stage < kViewPlanes ? std::string(name_of(static_cast<ViewPlane>(stage))) : kNames[stage - kFacing];
+  constexpr const char* kNames[] = {"near plane",    "far plane",  "guard band",  "facing test",
+                                    "subpixel bits", "visibility", "depth buffer"};
+  return kNames[stage];
 }
 
 std::vector<std::string> levels_of(Stage stage) {

@@ -273,16 +273,14 @@ Level PipelineNeeds::judge(const Frame& frame, std::span<const std::uint32_t> ri
     else
       ++found.hidden_px;
   }
-  if (frame.keep_pictures && found.wrong_px > tolerance_px_)
-    found.picture = mark_visible_triangles(right, drawn, {size.width, size.height});
   return found;
 }
 
 void PipelineNeeds::add(const StudiedFrame& studied, const CoverageScene& scene,
                         const std::array<Reach, kViewPlanes>& reach, int threads) {
   if (frames_.empty()) start(studied);
-  Frame& frame = frames_.emplace_back(Frame{
-      studied.index, studied.keep_pictures, reach, PipelineFrame(studied.drawable, studied.options), {}});
+  Frame& frame =
+      frames_.emplace_back(Frame{studied.index, reach, PipelineFrame(studied.drawable, studied.options), {}});
   const std::vector<std::uint32_t> right = right_picture(scene, threads);
   const std::size_t width = static_cast<std::size_t>(studied.options.width);
   for (std::size_t i = 0; i < right.size(); ++i) {
@@ -307,8 +305,7 @@ void PipelineNeeds::add(const StudiedFrame& studied, const CoverageScene& scene,
       level->wrong_px += found.wrong_px, level->hidden_px += found.hidden_px;
       level->worst_px = std::max(level->worst_px, found.wrong_px);
       level->farthest_squared_px = std::max(level->farthest_squared_px, found.farthest_squared_px);
-      if (found.wrong_px > tolerance_px_ && level->enough())
-        level->witness = found.witness, level->picture = found.picture;
+      if (found.wrong_px > tolerance_px_ && level->enough()) level->witness = found.witness;
     }
   });
 }

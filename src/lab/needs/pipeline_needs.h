@@ -29,7 +29,6 @@ struct Level {
   std::int64_t farthest_squared_px = 0;
   // The first wrong pixel of the first frame that has more than are tolerated. None: the level is enough.
   std::optional<Witness> witness = {};
-  MarkedPicture picture = {};  // of that frame; empty unless asked for
 
   bool enough() const { return !witness; }
   double farthest_px() const { return std::sqrt(static_cast<double>(farthest_squared_px)); }
@@ -66,7 +65,6 @@ class PipelineNeeds {
  private:
   struct Frame {
     std::uint64_t index;
-    bool keep_pictures;
     std::array<Reach, kViewPlanes> reach;
     PipelineFrame frame;
     std::vector<Run> right;  // the exact picture, row by row; its background, too

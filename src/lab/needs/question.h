@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "edgewise/scene.h"
-#include "lab/error_marks.h"
 #include "lab/method.h"
 
 namespace edgewise::lab {
@@ -17,12 +16,6 @@ struct StudiedFrame {
   std::uint64_t index;
   const Drawable& drawable;
   FrontendOptions options;
-  bool keep_pictures;  // whether answers that are not enough keep a MarkedPicture
-
-  Size size() const { return {options.width, options.height}; }
-  std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height);
-  }
 };
 
 // A pixel at which an answer shows an error.
@@ -36,7 +29,6 @@ struct Answer {
   std::string name;
   std::optional<Witness> witness = {};  // the first; none: the answer is enough
   std::uint64_t wrong_px = 0;           // in the frame of the witness
-  MarkedPicture picture = {};           // of that frame; empty unless asked for
 
   bool enough() const { return !witness; }
 };

@@ -63,7 +63,7 @@ std::array<Reach, kViewPlanes> Ranges::add(const StudiedFrame& frame) {
   std::array<Reach, kViewPlanes> reach{};
   if (!std::holds_alternative<Scene>(frame.drawable)) return reach;
   const auto& scene = std::get<Scene>(frame.drawable);
-  const auto [width, height] = frame.size();
+  const int width = frame.options.width, height = frame.options.height;
   const ViewVolume view = view_volume(camera_of(scene), width, height);
   near_z_ = view.near_z, far_z_ = view.far_z;
   std::vector<ClipVertex> vertices;
@@ -114,11 +114,6 @@ void Ranges::add_edge_values(const StudiedFrame& frame) {
   }
 }
 
-std::string_view name_of(ViewPlane plane) {
-  constexpr std::string_view kNames[kViewPlanes] = {"near plane", "far plane", "guard band"};
-  return kNames[static_cast<std::size_t>(plane)];
-}
-
 std::string Ranges::describe(ViewPlane plane) const {
   switch (plane) {
     case ViewPlane::near:
@@ -129,12 +124,6 @@ std::string Ranges::describe(ViewPlane plane) const {
       break;
   }
   return fmt::format("the largest coordinate is {:.4g} px of {}", largest_px_, contract::kMaxImageSide);
-}
-
-// A sample in the box spans with an edge at most its area, as does twice a triangle's area.
-double largest_box_px2(int integer_bits, int subpixel_bits) {
-  return std::floor((std::ldexp(1.0, integer_bits - 1) - 1.0) /
-                    std::ldexp(1.0, 2 * std::max(subpixel_bits, 1)));
 }
 
 Question Ranges::edge_values(int subpixel_bits) const {

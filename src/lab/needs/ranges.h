@@ -14,16 +14,12 @@ inline constexpr int kMostSubpixelBits = 16;
 
 enum class ViewPlane { near, far, guard };
 inline constexpr int kViewPlanes = 3;
-std::string_view name_of(ViewPlane plane);  // "near plane", "far plane", "guard band"
 
 // How many triangles a plane of the view volume, or the guard band, concerns.
 struct Reach {
   std::uint64_t beyond = 0;    // triangles with a vertex beyond it
   std::uint64_t crossing = 0;  // of these, triangles that do not lie beyond one side of the view as a whole
 };
-
-// The largest area in px² of a box in which no triangle's edge values overflow integers of so many bits.
-double largest_box_px2(int integer_bits, int subpixel_bits);
 
 class Ranges {
  public:

@@ -49,8 +49,6 @@ class PeerFrame {
   virtual void draw() = 0;
   // The payloads of the last frame, row by row from the top.
   virtual std::vector<std::uint32_t> read() = 0;
-  // Its depths in [0, 1], in the same order.
-  virtual std::vector<float> read_depths() = 0;
   // The duration of the last draw() by the device's own clock; none if it has none.
   virtual std::optional<double> device_s() const { return {}; }
 };
@@ -83,14 +81,11 @@ struct StartedPeers {
 };
 StartedPeers start_peers(std::span<const PeerInfo> peers);
 
-// Positions before snapping, so that a peer's own snapping decides.
-PeerScene peer_scene(std::span<const FloatTriangle> triangles, Window window, std::uint32_t background);
-
 // Beside each version of Mesa the year of its branch: "Mesa 22.3.6 (branch of 2022)". Mesa numbers its
 // versions YEAR.BRANCH.PATCH (https://docs.mesa3d.org/releasing.html).
 std::string with_year(const std::string& version);
 
-// One method per peer; `started` must outlive them.
+// One method per peer, which draws pictures and has no depths; `started` must outlive them.
 std::vector<CoverageMethod> peer_methods(const StartedPeers& started);
 
 }  // namespace edgewise::lab

@@ -158,12 +158,9 @@ Triangles exactly_projected(const SceneTruth& truth, int bits) {
 namespace {
 
 constexpr std::string_view kOurs[] = {"ours_4",  "ours_5",  "ours_6",  "ours_7",  "ours_8",  "ours_9",
-                                      "ours_10", "ours_11", "ours_12", "ours_13", "ours_14", "ours_15"};
-constexpr std::string_view kExact[] = {"exact_4",  "exact_5",  "exact_6",  "exact_7",
-                                       "exact_8",  "exact_9",  "exact_10", "exact_11",
-                                       "exact_12", "exact_13", "exact_14", "exact_15"};
-static_assert(std::size(kOurs) == kMaxSubpixelBits - kMinSubpixelBits + 1 &&
-              std::size(kOurs) == std::size(kExact));
+                                      "ours_10", "ours_11", "ours_12", "ours_13", "ours_14", "ours_15"},
+                           kExact[] = {"exact_8", "exact_12", "exact_15"};  // by kShownBits
+static_assert(std::size(kOurs) == kMaxSubpixelBits - kMinSubpixelBits + 1);
 
 constexpr std::string_view kFrontend = "frontend/transform.cpp",
                            kInFloat =
@@ -179,10 +176,10 @@ ProjectionMethod our(int bits) {
           ours};
 }
 
-ProjectionMethod exact(int bits) {
-  return {{kExact[bits - kMinSubpixelBits], "exact projection, rounded exactly",
-           "the best that these subpixel bits allow", "exact positions, rounded half to even", true},
-          bits,
+ProjectionMethod exact(std::size_t i) {
+  return {{kExact[i], "exact projection, rounded exactly", "the best that these subpixel bits allow",
+           "exact positions, rounded half to even", true},
+          kShownBits[i],
           exactly};
 }
 
@@ -191,7 +188,7 @@ ProjectionMethod exact(int bits) {
 std::span<const ProjectionMethod> projection_methods() {
   static const std::vector<ProjectionMethod> kMethods = [] {
     std::vector<ProjectionMethod> list;
-    for (const int bits : kShownBits) list.push_back(our(bits));
+    for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits) list.push_back(our(bits));
     list.push_back(
         {{"ours_float", "the floats that our front end rounds to at most 8 bits: relative to the camera",
           kFrontend, kInFloat, false},
@@ -209,18 +206,7 @@ std::span<const ProjectionMethod> projection_methods() {
                      "the usual remedy for float errors", "none", false},
                     {},
                     by_matrix<double>});
-    for (const int bits : kShownBits) list.push_back(exact(bits));
-    return list;
-  }();
-  return kMethods;
-}
-
-std::span<const ProjectionMethod> projections_with_other_bits() {
-  static const std::vector<ProjectionMethod> kMethods = [] {
-    std::vector<ProjectionMethod> list;
-    for (const auto make : {our, exact})
-      for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits)
-        if (std::ranges::find(kShownBits, bits) == std::end(kShownBits)) list.push_back(make(bits));
+    for (std::size_t i = 0; i < std::size(kShownBits); ++i) list.push_back(exact(i));
     return list;
   }();
   return kMethods;

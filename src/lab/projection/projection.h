@@ -49,8 +49,6 @@ std::vector<ProjectedTriangle> exactly_projected(const SceneTruth& scene, int su
 
 // Ours first. The table is in methods.cpp.
 std::span<const ProjectionMethod> projection_methods();
-// Ours and the exact one with the bits that those lack, for a curve.
-std::span<const ProjectionMethod> projections_with_other_bits();
 
 // (triangle, pixel) pairs that a method draws and the truth lacks, or the other way round.
 struct ProjectionScore {

@@ -68,7 +68,7 @@ class SceneTruth final : public SourceTruth {
   // 1 front, -1 back, 0 if it draws nothing: it is culled, edge-on, or beyond one side of the view.
   int facing(std::uint32_t triangle) const { return facing_[triangle]; }
   std::vector<Run> runs(Window window, int threads) const override;
-  VisibleTriangles visible_triangles(Window window, int threads) const;
+  VisibleTriangles visible_triangles(Window window, int threads) const override;
   std::vector<glm::dvec3> outline(std::uint32_t triangle) const override;
 
   // The rest is about points anywhere in the image. A triangle that draws nothing covers none.

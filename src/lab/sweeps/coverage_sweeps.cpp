@@ -16,8 +16,6 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kErrorsPerCrossing{"wrong samples per 10^6 edge crossings", true, 1e6};
-
 struct Swept {
   MethodInfo info;
   const CoverageMethod* method;
@@ -223,36 +221,28 @@ void add_sweeps(std::vector<Sweep>& list, std::string_view (&&names)[4], std::st
   list.push_back({names[0],
                   Family::coverage,
                   "a fine mesh, up to the far corner of the largest image",
-                  {"distance from origin", "px", true},
-                  kErrorsPerCrossing,
-                  1,
+                  {"distance from origin", "px"},
                   powers_of_two(7, 14),
                   measure_distance<kGrid>,
                   why});
   list.push_back({names[1],
                   Family::coverage,
                   "slivers that share long edges",
-                  {"length over width", "", true},
-                  kErrorsPerCrossing,
-                  4,
+                  {"length over width", ""},
                   up_to(kGrid == kOnHalves ? 2000 : 1e6, decades(0, 6)),  // thinner ones lose their area
                   measure_aspect<kGrid>,
                   why});
   list.push_back({names[2],
                   Family::coverage,
                   "right triangles, at the limits of 32-bit edge values",
-                  {"legs", "px", true},
-                  kErrorsPerCrossing,
-                  1,
+                  {"legs", "px"},
                   {64, 90, 128, 181, 182, 256, 362, 512, 724, 1024, 1448, 2048, 2896, 2897, 4096, 5792, 8192},
                   measure_legs<kGrid>,
                   why});
   list.push_back({names[3],
                   Family::coverage,
                   "long shared edges: accumulated values drift",
-                  {"length of the edges", "px", true},
-                  kErrorsPerCrossing,
-                  3,
+                  {"length of the edges", "px"},
                   powers_of_two(3, 13),
                   measure_height<kGrid>,
                   why});
@@ -273,9 +263,7 @@ std::vector<Sweep> coverage_sweeps() {
   list.push_back({"pan",
                   Family::coverage,
                   "a mesh pans slowly: pixels that change though the truth does not",
-                  {"speed", "px per frame", true},
-                  {"superfluous changes per 10^6 true ones", true, 1e6},
-                  50,
+                  {"speed", "px per frame"},
                   powers_of_two(-1, -8),
                   measure_pan,
                   kRounding});

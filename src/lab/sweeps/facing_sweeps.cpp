@@ -13,8 +13,6 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kMisjudged{"misjudged faces, %", false, 100};
-
 // Ours with more bits, whose front end projects in double.
 struct Fine {
   std::string_view name;
@@ -103,25 +101,19 @@ std::vector<Sweep> facing_sweeps() {
   return {{"tilt_perspective",
            Family::facing,
            "faces of random directions off the axis, under perspective",
-           {"tilt of the ray to the faces", "degrees", false},
-           kMisjudged,
-           10,
+           {"tilt of the ray to the faces", "degrees"},
            {0, 5, 10, 20, 40, 80},
            [](double degrees, std::uint64_t seed) { return measure_tilt(degrees, true, seed); }},
           {"tilt_orthographic",
            Family::facing,
            "the same under an orthographic camera",
-           {"tilt of the ray to the faces", "degrees", false},
-           kMisjudged,
-           6,
+           {"tilt of the ray to the faces", "degrees"},
            {0, 5, 10, 20, 40, 80},
            [](double degrees, std::uint64_t seed) { return measure_tilt(degrees, false, seed); }},
           {"edge_on",
            Family::facing,
            "triangles that are nearly edge-on and still cover a sample",
-           {"height on the screen", "px", true},
-           kMisjudged,
-           11,
+           {"height on the screen", "px"},
            every_other(powers_of_two(3, -21)),
            measure_edge_on,
            "a face thinner than a step of the grid may turn over: 1/256 px at 8 bits, 1/32768 px at 15"}};

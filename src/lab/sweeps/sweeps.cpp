@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <mutex>
 
 #include "core/nearest_name.h"
 #include "core/parallel.h"
@@ -29,6 +28,7 @@ std::uint64_t Measured::fewest_trials() const {
 std::vector<MethodInfo> swept_methods(Family family) {
   if (family == Family::coverage) return swept_coverage_methods();
   if (family == Family::facing) return swept_facing_methods();
+  if (family == Family::projection) return swept_projection_methods();
   return methods_of(family);
 }
 
@@ -49,13 +49,8 @@ const Sweep& find_sweep(std::string_view name) {
 
 std::optional<double> SweepResult::starts_to_fail(std::size_t method) const {
   for (std::size_t position = 0; position < at.size(); ++position)
-    if (fails(method, position)) return sweep->positions[position];
+    if (at[position].methods[method].rate() > 1e-4) return sweep->positions[position];
   return std::nullopt;
-}
-
-double SweepResult::y(const Tally& tally) const {
-  if (tally.trials == 0) return 0.0;
-  return sweep->y.scale * static_cast<double>(tally.errors) / static_cast<double>(tally.trials);
 }
 
 Measured measure(const Sweep& sweep, double position, Effort effort) {
@@ -65,15 +60,11 @@ Measured measure(const Sweep& sweep, double position, Effort effort) {
   return sum;
 }
 
-SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads,
-                      const std::function<void()>& on_position) {
+SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads) {
   SweepResult result{&sweep, std::vector<Measured>(sweep.positions.size(), Measured(0))};
-  std::mutex mutex;
   parallel_for(threads, static_cast<int>(sweep.positions.size()), [&](int i) {
     const auto position = static_cast<std::size_t>(i);
     result.at[position] = measure(sweep, sweep.positions[position], effort);
-    const std::lock_guard lock(mutex);
-    on_position();
   });
   return result;
 }

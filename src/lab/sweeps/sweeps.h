@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -16,6 +15,9 @@ namespace edgewise::lab {
 struct Tally {
   std::uint64_t errors = 0, trials = 0;
 
+  double rate() const {
+    return trials == 0 ? 0.0 : static_cast<double>(errors) / static_cast<double>(trials);
+  }
   Tally& operator+=(const Tally& other);
   bool operator==(const Tally&) const = default;
 };
@@ -31,15 +33,6 @@ struct Measured {
 
 struct XAxis {
   std::string_view name, unit;
-  bool log;
-};
-struct YAxis {
-  std::string_view name;
-  bool log;
-  double scale;  // y = scale * errors / trials
-
-  // The same for all sweeps: a method fails where it errs in more than 1 of 10^4 trials.
-  double tolerance() const { return scale * 1e-4; }
 };
 
 // A point has at least so many trials, on at least so many scenes.
@@ -53,8 +46,6 @@ struct Sweep {
   Family family;
   std::string_view summary;  // one line
   XAxis x;
-  YAxis y;
-  double cost;                    // estimated seconds on one core, for estimates of the remaining time
   std::vector<double> positions;  // positions on the x axis, from easy to hard
   // Scores all methods at one position on one scene, another one for each seed. Deterministic and
   // thread-safe. Has trials at every position.
@@ -66,6 +57,7 @@ struct Sweep {
 std::vector<MethodInfo> swept_methods(Family family);
 std::vector<MethodInfo> swept_coverage_methods();
 std::vector<MethodInfo> swept_facing_methods();
+std::vector<MethodInfo> swept_projection_methods();
 
 // One table per family, in a file of its name.
 std::vector<Sweep> coverage_sweeps();
@@ -81,17 +73,11 @@ struct SweepResult {
   const Sweep* sweep;
   std::vector<Measured> at;  // one per position
 
-  // The first position where a method fails; nullopt if there is none.
+  // The first position where a method errs in more than 1 of 10^4 trials; nullopt if there is none.
   std::optional<double> starts_to_fail(std::size_t method) const;
-  bool fails(std::size_t method, std::size_t position) const {
-    return y(at[position].methods[method]) > sweep->y.tolerance();
-  }
-  double y(const Tally& tally) const;
 };
 
-// Calls `on_position` after each position, from one thread at a time.
-SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads,
-                      const std::function<void()>& on_position);
+SweepResult run_sweep(const Sweep& sweep, Effort effort, int threads);
 // One position of it.
 Measured measure(const Sweep& sweep, double position, Effort effort);
 

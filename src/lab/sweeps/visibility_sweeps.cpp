@@ -10,8 +10,6 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kWrongTriangles{"wrong visible triangles per 10^6 covered pixels", true, 1e6};
-
 template <typename Errors>
 Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
   const auto methods = visibility_methods();
@@ -78,35 +76,27 @@ std::vector<Sweep> visibility_sweeps() {
   return {{"separation_at_10",
            Family::visibility,
            "two tilted planes at z = 10, in either order; near 0.1, far 1000",
-           {"separation", "", true},
-           kWrongTriangles,
-           2.5,
+           {"separation", ""},
            decades(0, -8),
            [](double separation, std::uint64_t seed) { return measure_separation(10, separation, seed); },
            kDepthBits},
           {"separation_at_100",
            Family::visibility,
            "two tilted planes at z = 100, in either order; near 0.1, far 1000",
-           {"separation", "", true},
-           kWrongTriangles,
-           2.5,
+           {"separation", ""},
            decades(1, -7),
            [](double separation, std::uint64_t seed) { return measure_separation(100, separation, seed); },
            kDepthBits},
           {"cycle",
            Family::visibility,
            "bars, each over the end of the previous one; three or more form a cycle",
-           {"bars", "", false},
-           kWrongTriangles,
-           2.5,
+           {"bars", ""},
            {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24},
            measure_cycle},
           {"sliver_depth",
            Family::visibility,
            "slivers: visible triangles, and depths outside the triangle's own range",
-           {"length over width", "", true},
-           {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
-           8,
+           {"length over width", ""},
            decades(1, 5),
            measure_sliver_depth}};
 }

@@ -124,37 +124,6 @@ class FloatTruth {
   FillRule rule_;
 };
 
-// What a picture is judged against before anything is projected or rounded. Triangles are numbered as they
-// were submitted.
-class SourceTruth {
- public:
-  virtual ~SourceTruth() = default;
-  virtual std::size_t size() const = 0;  // number of triangles
-  // As covered_runs() below.
-  virtual std::vector<Run> runs(Window window, int threads) const = 0;
-  // The corners of a triangle's visible part, in order: x and y in pixels, depth from 0 to 1, rounded to
-  // double. Empty if it draws nothing.
-  virtual std::vector<glm::dvec3> outline(std::uint32_t triangle) const = 0;
-};
-
-// All covered pixels, sorted by triangle and row; a triangle has at most one run per row.
-std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
-std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
-
-// The truth of triangles that come with screen positions. They must outlive it.
-class FloatSource final : public SourceTruth {
- public:
-  explicit FloatSource(std::span<const FloatTriangle> triangles) : triangles_(triangles) {}
-  std::size_t size() const override { return triangles_.size(); }
-  std::vector<Run> runs(Window window, int threads) const override {
-    return covered_runs(triangles_, window, threads);
-  }
-  std::vector<glm::dvec3> outline(std::uint32_t triangle) const override;
-
- private:
-  std::span<const FloatTriangle> triangles_;
-};
-
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 // The visible triangle of each pixel, row by row: the nearest one, at a tie the earlier one, by exact
 // comparison.
@@ -172,5 +141,40 @@ VisibleTriangles exact_visible_triangles(std::span<const ScreenTriangle> triangl
                                          int threads);
 VisibleTriangles exact_visible_triangles(std::span<const FloatTriangle> triangles, Window window,
                                          int threads);
+
+// What a picture is judged against before anything is projected or rounded. Triangles are numbered as they
+// were submitted.
+class SourceTruth {
+ public:
+  virtual ~SourceTruth() = default;
+  virtual std::size_t size() const = 0;  // number of triangles
+  // As covered_runs() below.
+  virtual std::vector<Run> runs(Window window, int threads) const = 0;
+  // The corners of a triangle's visible part, in order: x and y in pixels, depth from 0 to 1, rounded to
+  // double. Empty if it draws nothing.
+  virtual std::vector<glm::dvec3> outline(std::uint32_t triangle) const = 0;
+  virtual VisibleTriangles visible_triangles(Window window, int threads) const = 0;
+};
+
+// All covered pixels, sorted by triangle and row; a triangle has at most one run per row.
+std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
+std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
+
+// The truth of triangles that come with screen positions. They must outlive it.
+class FloatSource final : public SourceTruth {
+ public:
+  explicit FloatSource(std::span<const FloatTriangle> triangles) : triangles_(triangles) {}
+  std::size_t size() const override { return triangles_.size(); }
+  std::vector<Run> runs(Window window, int threads) const override {
+    return covered_runs(triangles_, window, threads);
+  }
+  std::vector<glm::dvec3> outline(std::uint32_t triangle) const override;
+  VisibleTriangles visible_triangles(Window window, int threads) const override {
+    return exact_visible_triangles(triangles_, window, threads);
+  }
+
+ private:
+  std::span<const FloatTriangle> triangles_;
+};
 
 }  // namespace edgewise::lab

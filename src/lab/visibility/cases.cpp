@@ -117,23 +117,18 @@ VisibilityScene front_to_back() {
 }
 
 constexpr std::array kCases = {
-    VisibilityCase{"back_to_front", "disjoint in depth, submitted back to front: all methods are right",
-                   back_to_front},
-    VisibilityCase{"front_to_back", "the same, submitted front to back", front_to_back},
-    VisibilityCase{"floor_under_box", "a floor from z = 1 to 100 under a box at z = 60", floor_under_box},
-    VisibilityCase{"pentagon_under_wall", "a pentagon nearer than a wall only by the mean of its corners",
-                   pentagon_under_wall},
-    VisibilityCase{"bent_quad", "a non-planar quad with one corner behind another quad", bent_quad},
-    VisibilityCase{"bars_in_a_cycle", "three bars, each in front of the end of the previous one",
-                   bars_in_a_cycle},
-    VisibilityCase{"interpenetrating", "two triangles that intersect", interpenetrating},
-    VisibilityCase{"planes_1_apart", "two planes 1 apart at z = 100, near 0.1",
-                   [] { return two_planes(100, 1, 0.1, 1000); }},
-    VisibilityCase{"planes_3e-3_apart", "two planes 0.003 apart at z = 100, near 0.1",
-                   [] { return two_planes(100, 3e-3, 0.1, 1000); }},
-    VisibilityCase{"planes_1e-5_apart", "two planes 0.00001 apart at z = 100, near 0.1",
-                   [] { return two_planes(100, 1e-5, 0.1, 1000); }},
-    VisibilityCase{"slivers", "triangles 20,000 times as long as wide", [] { return slivers(20000); }},
+    // Disjoint in depth, submitted back to front: all methods are right.
+    VisibilityCase{"back_to_front", back_to_front},
+    VisibilityCase{"front_to_back", front_to_back},
+    VisibilityCase{"floor_under_box", floor_under_box},
+    VisibilityCase{"pentagon_under_wall", pentagon_under_wall},
+    VisibilityCase{"bent_quad", bent_quad},
+    VisibilityCase{"bars_in_a_cycle", bars_in_a_cycle},
+    VisibilityCase{"interpenetrating", interpenetrating},
+    VisibilityCase{"planes_1_apart", [] { return two_planes(100, 1, 0.1, 1000); }},
+    VisibilityCase{"planes_3e-3_apart", [] { return two_planes(100, 3e-3, 0.1, 1000); }},
+    VisibilityCase{"planes_1e-5_apart", [] { return two_planes(100, 1e-5, 0.1, 1000); }},
+    VisibilityCase{"slivers", [] { return slivers(20000); }},
 };
 
 }  // namespace

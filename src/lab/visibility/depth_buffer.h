@@ -99,7 +99,6 @@ class UnormPlane {
     return static_cast<Word>(static_cast<std::int32_t>(std::clamp(scaled, 0.0, double{kMax})));
   }
   static bool nearer(Word a, Word b) { return a < b; }
-  static double ulp01(double) { return 1.0 / kMax; }
   // Half a step, and the rounding of double.
   static double bound01(const VisibilityTriangle& t, const VisibilityScene&) {
     return 0.5 / kMax + 0x1p-49 * magnification(t.screen);
@@ -108,10 +107,5 @@ class UnormPlane {
  private:
   GradientPlane<double> plane_;
 };
-
-// The distance between neighbouring floats at a value.
-inline double float_ulp(double value) {
-  return std::ldexp(1.0, std::max(std::ilogb(std::max(std::abs(value), 0x1p-126)), -126) - 23);
-}
 
 }  // namespace edgewise::lab

@@ -166,16 +166,15 @@ constexpr VisibilityMethod unorm(const MethodInfo& info) {
           [](const VisibilityFrame& frame, std::size_t pixel) {
             return static_cast<double>((frame.*kDepth)[pixel]) / Plane::kMax;
           },
-          Plane::ulp01, Plane::bound01};
+          Plane::bound01};
 }
 
 // A painter's method, by one of the sort keys above.
 template <auto kKey>
 constexpr VisibilityMethod painter(const MethodInfo& info) {
-  return {
-      info,    [](const VisibilityScene& scene, VisibilityFrame& frame) { draw_painter(scene, frame, kKey); },
-      nullptr, nullptr,
-      nullptr, ranges_overlap};
+  return {info,
+          [](const VisibilityScene& scene, VisibilityFrame& frame) { draw_painter(scene, frame, kKey); },
+          nullptr, nullptr, ranges_overlap};
 }
 
 const std::array kMethods{
@@ -191,7 +190,6 @@ const std::array kMethods{
         [](const VisibilityFrame& frame, std::size_t pixel) {
           return (static_cast<double>(frame.depth32[pixel]) - contract::kDepthHead) / contract::kDepthRange;
         },
-        [](double) { return 1.0 / contract::kDepthRange; },
         // The error of rule 6, and the largest error of a vertex's depth: inside the triangle the two planes
         // are no farther apart than at a vertex.
         [](const VisibilityTriangle& t, const VisibilityScene& s) {
@@ -212,7 +210,6 @@ const std::array kMethods{
         [](const VisibilityFrame& frame, std::size_t pixel) {
           return 1.0 - static_cast<double>(frame.depth_float[pixel]);
         },
-        [](double depth01) { return float_ulp(1.0 - depth01); },
         [](const VisibilityTriangle& t, const VisibilityScene& s) {
           const double nearest = std::min(std::min(t.view_z[0], t.view_z[1]), t.view_z[2]);
           // far - view_z is rounded before it is scaled, which near the far plane adds an error relative to
@@ -227,7 +224,6 @@ const std::array kMethods{
                      [](const VisibilityFrame& frame, std::size_t pixel) {
                        return static_cast<double>(frame.depth_float[pixel]);
                      },
-                     float_ulp,
                      [](const VisibilityTriangle& t, const VisibilityScene&) {
                        return 16 * 0x1p-24 * magnification(t.screen);
                      }},
@@ -254,7 +250,6 @@ const std::array kMethods{
           clear_visible(scene, frame);
           for (std::uint32_t id = 0; id < scene.triangles.size(); ++id) paint(scene, frame, id);
         },
-        nullptr,
         nullptr,
         nullptr,
         [](const VisibilityScene&, std::uint32_t drawn, std::uint32_t truth) { return truth < drawn; }},

@@ -97,33 +97,23 @@ class Judge {
   // Returns the error of the stored depth, in depth01.
   double add_depth(const VisibilityFrame& frame, std::uint32_t triangle, int x, int y) {
     const double truth = depth01(triangle, x, y), stored = method_.stored01(frame, pixel_at(scene_, x, y));
-    const double error = std::abs(stored - truth), steps = error / method_.ulp01(truth);
-    max_ = std::max(max_, steps);
-    squares_ += steps * steps;
-    ++count_;
     const auto& z = scene_.triangles[triangle].view_z;
     const auto [nearest, farthest] = std::minmax({z[0], z[1], z[2]});
     const double low = depth01_of(1.0 / nearest, scene_), high = depth01_of(1.0 / farthest, scene_);
     if (stored < low - 0x1p-16 || stored > high + 0x1p-16) ++score_.out_of_range;
-    return error;
+    return std::abs(stored - truth);
   }
   void add_visible(std::uint32_t drawn, std::uint32_t truth) {
     if (truth != kNoTriangle) ++score_.covered;
     if (drawn != truth) ++score_.wrong_triangle;
   }
-  VisibilityScore report() {
-    score_.max_ulp = max_;
-    if (count_ > 0) score_.rms_ulp = std::sqrt(squares_ / static_cast<double>(count_));
-    return score_;
-  }
+  const VisibilityScore& score() const { return score_; }
 
  private:
   const VisibilityMethod& method_;
   const VisibilityScene& scene_;
   bool snapped_;
   VisibilityScore score_;
-  double max_ = 0, squares_ = 0;
-  std::uint64_t count_ = 0;
 };
 
 // Scores against both truths at once, so that the picture is drawn only once.
@@ -140,8 +130,8 @@ class Scorer {
     if (!keeps_promise(drawn, visible.snapped[pixel], x, y)) ++scores_.broken;
   }
   VisibilityScores report() {
-    scores_.snapped = snapped_.report();
-    scores_.source = source_.report();
+    scores_.snapped = snapped_.score();
+    scores_.source = source_.score();
     return scores_;
   }
 

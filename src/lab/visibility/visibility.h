@@ -59,10 +59,9 @@ struct VisibilityMethod {
   // The timed part: clear, cover, decide.
   void (*draw)(const VisibilityScene& scene, VisibilityFrame& frame);
 
-  // For depth buffers, else null: the depth01 that the frame holds at a pixel; the format's step at a depth;
-  // and the promise: an upper bound of the error of a triangle's depth01.
+  // For depth buffers, else null: the depth01 that the frame holds at a pixel; and the promise: an upper
+  // bound of the error of a triangle's depth01.
   double (*stored01)(const VisibilityFrame& frame, std::size_t pixel);
-  double (*ulp01)(double depth01);
   double (*bound01)(const VisibilityTriangle& triangle, const VisibilityScene& scene);
 
   // For methods without a depth buffer, the promise: whether triangle `drawn` may wrongly occlude `truth`,
@@ -85,10 +84,9 @@ std::vector<std::uint32_t> snapped_visible_triangles(const VisibilityScene& scen
 struct VisibilityScore {
   std::uint64_t covered = 0;         // pixels that a triangle covers in truth
   std::uint64_t wrong_triangle = 0;  // pixels that show another triangle than the true one
-  // Errors of the stored depths, each against the plane of the drawn triangle, at pixels that this triangle
-  // covers in truth:
-  std::uint64_t out_of_range = 0;  // pixels outside that triangle's depth range by more than 2^-16
-  double max_ulp = 0, rms_ulp = 0;
+  // Stored depths outside the drawn triangle's depth range by more than 2^-16, at pixels that this triangle
+  // covers in truth.
+  std::uint64_t out_of_range = 0;
 };
 struct VisibilityScores {
   VisibilityScore snapped, source;
@@ -105,7 +103,7 @@ VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& sc
 
 // Small scenes on which methods fail.
 struct VisibilityCase {
-  std::string_view name, summary;
+  std::string_view name;
   VisibilityScene (*make)();
 };
 std::span<const VisibilityCase> visibility_cases();

@@ -180,20 +180,14 @@ class Frame final : public PeerFrame {
   }
 
   std::vector<std::uint32_t> read() override {
-    return pixels<std::uint32_t>(GL_RED_INTEGER, GL_UNSIGNED_INT);
-  }
-  std::vector<float> read_depths() override { return pixels<float>(GL_DEPTH_COMPONENT, GL_FLOAT); }
-
- private:
-  template <typename T>
-  std::vector<T> pixels(GLenum format, GLenum type) const {
     use_mesa(driver_, threads_);
     glBindFramebuffer(GL_FRAMEBUFFER, target_);
-    std::vector<T> list(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    glReadPixels(0, 0, width_, height_, format, type, list.data());
+    std::vector<std::uint32_t> list(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, list.data());
     return list;
   }
 
+ private:
   MesaDriver driver_;
   int threads_, width_, height_;
   bool cull_;

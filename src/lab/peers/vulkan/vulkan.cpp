@@ -324,8 +324,28 @@ class VulkanFrame final : public PeerFrame {
                                          vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     return static_cast<double>(ticks[1] - ticks[0]) * device_.tick_s();
   }
-  std::vector<std::uint32_t> read() override { return pixels<std::uint32_t>(colours_); }
-  std::vector<float> read_depths() override { return pixels<float>(depths_); }
+
+  std::vector<std::uint32_t> read() override {
+    using Access = vk::AccessFlagBits;
+    using Stage = vk::PipelineStageFlagBits;
+    std::vector<std::uint32_t> list(std::size_t{size_.width} * size_.height);
+    const std::size_t bytes = list.size() * sizeof list[0];
+    const Buffer copy = device_.buffer(bytes, vk::BufferUsageFlagBits::eTransferDst, kHostMemory);
+    const auto copying = device_.commands();
+    copying.begin(vk::CommandBufferBeginInfo());
+    copying.pipelineBarrier(Stage::eAllGraphics, Stage::eTransfer, {},
+                            vk::MemoryBarrier(Access::eMemoryWrite, Access::eTransferRead), {}, {});
+    copying.copyImageToBuffer(
+        *colours_.image, vk::ImageLayout::eGeneral, *copy.buffer,
+        vk::BufferImageCopy(0, 0, 0, {colours_.aspect, 0, 0, 1}, {}, vk::Extent3D(size_, 1)));
+    copying.pipelineBarrier(Stage::eTransfer, Stage::eHost, {},
+                            vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead), {}, {});
+    copying.end();
+    device_.run(copying);
+    std::memcpy(list.data(), copy.memory.mapMemory(0, bytes), bytes);
+    copy.memory.unmapMemory();
+    return list;
+  }
 
  private:
   void record(const PeerScene& scene) {
@@ -363,29 +383,6 @@ class VulkanFrame final : public PeerFrame {
     drawing_.endRendering();
     drawing_.writeTimestamp(Stage::eBottomOfPipe, *clock_, 1);
     drawing_.end();
-  }
-
-  template <typename T>
-  std::vector<T> pixels(const Image& image) const {
-    using Access = vk::AccessFlagBits;
-    using Stage = vk::PipelineStageFlagBits;
-    std::vector<T> list(std::size_t{size_.width} * size_.height);
-    const std::size_t bytes = list.size() * sizeof(T);
-    const Buffer copy = device_.buffer(bytes, vk::BufferUsageFlagBits::eTransferDst, kHostMemory);
-    const auto copying = device_.commands();
-    copying.begin(vk::CommandBufferBeginInfo());
-    copying.pipelineBarrier(Stage::eAllGraphics, Stage::eTransfer, {},
-                            vk::MemoryBarrier(Access::eMemoryWrite, Access::eTransferRead), {}, {});
-    copying.copyImageToBuffer(
-        *image.image, vk::ImageLayout::eGeneral, *copy.buffer,
-        vk::BufferImageCopy(0, 0, 0, {image.aspect, 0, 0, 1}, {}, vk::Extent3D(size_, 1)));
-    copying.pipelineBarrier(Stage::eTransfer, Stage::eHost, {},
-                            vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead), {}, {});
-    copying.end();
-    device_.run(copying);
-    std::memcpy(list.data(), copy.memory.mapMemory(0, bytes), bytes);
-    copy.memory.unmapMemory();
-    return list;
   }
 
   const Device& device_;
