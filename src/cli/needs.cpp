@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,6 +23,7 @@ namespace edgewise::tools {
 
 namespace {
 
+constexpr int kEdgeBits[] = {4, 5, 6, 7, 8};
 constexpr double kSeconds = 10.0;  // over which --frames are spread
 constexpr int kMostStudiedFrames = 100'000;
 constexpr int kMostTolerated = 1'000'000'000;
@@ -118,6 +120,40 @@ std::string text_of(const lab::Curve& curve, std::uint64_t frames) {
     text += fmt::format("    {:<22}{:>11.1f}{:>9}{:>11.1f}{:>11.1f}{}\n", name, mean(level.wrong_px),
                         level.worst_px, mean(level.hidden_px), level.farthest_px(),
                         level.enough() ? "  enough" : "");
+  }
+  return text;
+}
+
+// How depth buffers are called by graphics interfaces, and as levels.
+constexpr std::pair<const char*, const char*> kDepthFormats[] = {{"D16", "16 bits"},
+                                                                 {"D24", "24 bits"},
+                                                                 {"D32F", "float_z"},
+                                                                 {"reversed D32F", "reversed_z"},
+                                                                 {"ours", "contract31"}};
+
+std::string depth_formats(const std::vector<lab::Curve>& curves, const lab::Ranges& ranges) {
+  const lab::Curve& depths = *std::ranges::find(curves, lab::kDepth, &lab::Curve::stage);
+  std::vector<std::string> formats;
+  for (const auto& [format, name] : kDepthFormats) {
+    const lab::Level& level = *std::ranges::find(depths.levels, name, &lab::Level::name);
+    formats.push_back(
+        fmt::format("{} {}", format, level.enough() ? "is enough" : counted(level.worst_px, "wrong pixel")));
+  }
+  const std::string planes =
+      ranges.far_z() == 0.0 ? "" : fmt::format(", near {:.4g}, far {:.4g}", ranges.near_z(), ranges.far_z());
+  return line("depth formats" + planes, "") + indented(fmt::format("{}", fmt::join(formats, ", ")));
+}
+
+std::string edge_integers(const lab::Ranges& ranges, double aspect) {
+  std::string text = fmt::format("  {:<19}{:>14}{:>18}{:>25}\n", "integers of edges", "these need",
+                                 "legs in 32, 64", "picture in 32");
+  for (const int bits : kEdgeBits) {
+    const double in_32 = lab::largest_box_px2(32, bits), in_64 = lab::largest_box_px2(64, bits);
+    const std::string picture = fmt::format("{:.0f}x{:.0f} px", std::floor(std::sqrt(in_32 * aspect)),
+                                            std::floor(std::sqrt(in_32 / aspect)));
+    text += fmt::format("    {:<17}{:>11} bits{:>10.0f}, {:<10.0f}px{:>19}\n",
+                        fmt::format("{} subpixel bits", bits), ranges.edge_value_bits(bits),
+                        std::floor(std::sqrt(in_32)), std::floor(std::sqrt(in_64)), picture);
   }
   return text;
 }
@@ -250,7 +286,10 @@ class NeedsCommand {
     text += text_of(minima, tolerance_px());
     text += fmt::format("{:<26}{:>11}{:>9}{:>11}{:>11}\n", "wrong px, all else exact", "mean", "worst",
                         "hidden", "farthest");
-    for (const lab::Curve& curve : needs.curves()) text += text_of(curve, needs.frames());
+    const auto curves = needs.curves();
+    for (const lab::Curve& curve : curves) text += text_of(curve, needs.frames());
+    const double aspect = double(shot.frontend.width) / shot.frontend.height;
+    text += depth_formats(curves, needs.ranges()) + edge_integers(needs.ranges(), aspect);
     for (const lab::Question& question : needs.edges()) text += text_of(question);
     return text;
   }
@@ -309,7 +348,8 @@ Then edges:
   subpixel bits                so many that no larger number leaves a crack; so many that none
                                displaces more pixels than 8 bits do
   float edges                  methods that compute edges in floats, without a crack
-  edge values                  the integers that hold all of these triangles' edge functions
+  integers of edges            the bits, with the sign, that these triangles need; and the largest
+                               triangle and picture for integers of 32 and 64 bits
 
 All figures are of these frames only. --json has a wrong pixel of each level that is not enough, and
 the triangles there, numbered in submission order from 0.

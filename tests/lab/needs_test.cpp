@@ -250,6 +250,22 @@ TEST(Needs, ComputesTheExactWidthOfEdgeValues) {
   }
 }
 
+// Both sides of the largest box: a triangle over half of it, and one that is a pixel larger.
+TEST(Needs, KnowsTheLargestTriangleOfIntegers) {
+  for (const int bits : {5, 8}) {
+    const double legs = std::floor(std::sqrt(largest_box_px2(32, bits)));
+    for (const double more : {0.0, 1.0}) {
+      StreamTriangle t = wall(0.5f);
+      const float far = static_cast<float>(legs + more);
+      t.vertex[0] = {0, 0, 0.5f}, t.vertex[1] = {far, 0, 0.5f}, t.vertex[2] = {0, far, 0.5f};
+      const Needs needs = studied(stream_of({t}));
+      EXPECT_EQ(needs.ranges().edge_value_bits(bits) > 32, more > 0) << bits;
+    }
+  }
+  EXPECT_GE(largest_box_px2(32, 5), 1920 * 1080) << "SerenityOS's choice";
+  EXPECT_LT(largest_box_px2(32, 6), 1920 * 1080);
+}
+
 template <int... kBits>
 void draw_with_depth_bits(int bits, const VisibilityScene& scene, VisibilityFrame& frame,
                           std::integer_sequence<int, kBits...>) {

@@ -126,6 +126,12 @@ std::string Ranges::describe(ViewPlane plane) const {
   return fmt::format("the largest coordinate is {:.4g} px of {}", largest_px_, contract::kMaxImageSide);
 }
 
+// A sample in the box spans with an edge at most its area, as does twice a triangle's area.
+double largest_box_px2(int integer_bits, int subpixel_bits) {
+  return std::floor((std::ldexp(1.0, integer_bits - 1) - 1.0) /
+                    std::ldexp(1.0, 2 * std::max(subpixel_bits, 1)));
+}
+
 Question Ranges::edge_values(int subpixel_bits) const {
   const auto n = static_cast<std::size_t>(subpixel_bits);
   Question question{"edge values at " + bits_name(subpixel_bits, "subpixel"), {}};

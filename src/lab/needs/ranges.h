@@ -21,6 +21,9 @@ struct Reach {
   std::uint64_t crossing = 0;  // of these, triangles that do not lie beyond one side of the view as a whole
 };
 
+// The largest area in px² of a box in which no triangle's edge values overflow integers of so many bits.
+double largest_box_px2(int integer_bits, int subpixel_bits);
+
 class Ranges {
  public:
   // Returns the reach of this frame's vertices by ViewPlane, in the front end's arithmetic. All 0 for
