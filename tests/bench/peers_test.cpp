@@ -240,10 +240,12 @@ constexpr std::array<std::string_view, 9> kNearFamilies{
 
 std::shared_ptr<Workload> hard_workload(const std::string& family, std::uint64_t seed = 7) {
   TriangleStream stream{192, 128, {}};
-  const auto triangles = testing::adversarial(family, 400, stream.width, stream.height, seed);
-  for (const auto& [at, payload] : testing::as_floats(triangles)) {
-    StreamTriangle& out = stream.triangles.emplace_back(StreamTriangle{{}, payload});
-    for (int k = 0; k < 3; ++k) out.vertex[k] = {at.x_px[k], at.y_px[k], at.z01[k]};
+  for (const ScreenTriangle& t : testing::adversarial(family, 400, stream.width, stream.height, seed)) {
+    StreamTriangle& out = stream.triangles.emplace_back(StreamTriangle{{}, t.payload});
+    for (int k = 0; k < 3; ++k)
+      out.vertex[k] = {static_cast<float>(t.x_q15[k]) / kPixel_q15,
+                       static_cast<float>(t.y_q15[k]) / kPixel_q15,
+                       static_cast<float>(t.z[k]) / static_cast<float>(contract::kDepthClear)};
   }
   return workload_of(family, stream);
 }

@@ -76,9 +76,7 @@ TEST(Accuracy, TablesFitEightyColumns) {
                  "edge_on", "floor_behind_eye", "turning-cube"};
   plan.quick = true;
   const std::string text = accuracy_tables(measure_accuracy(plan));
-  EXPECT_NE(text.find("over half of the errors are on lattice_square, of float_le, float_lt\n"),
-            std::string::npos);
-  EXPECT_NE(text.find(" float_lt 166667"), std::string::npos) << "6 of 36 crossings of the other scene";
+  EXPECT_NE(text.find(" lattice_square 8"), std::string::npos) << "of errors, 80 to 89 % of some methods'";
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
 }

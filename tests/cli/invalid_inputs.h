@@ -187,7 +187,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "out of memory"},
     {"ulimit -u 1; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
 
-    // ---- Signals after the first file was opened. Unfinished ones have no name.
+    // ---- Signals
     {"stopped INT edgewise verify --full --json $DIR/a.json", 130, ""},
     {"stopped TERM edgewise verify --full --json $DIR/a.json", 143, ""},
     {"stopped KILL edgewise verify --full --json $DIR/a.json", 137, ""},

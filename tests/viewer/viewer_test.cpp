@@ -166,7 +166,7 @@ TEST(Viewer, ExplainsWhichMethodsCannotBeCombined) {
   type(stream, "x");
   EXPECT_NE(stream.side(0).because.find("no camera"), std::string::npos);
   EXPECT_EQ(wrong(stream), 0u);
-  type(stream, "wr,<up>0t");  // these keys do nothing for a stream
+  type(stream, "wr<up>0t");  // these keys do nothing for a stream
   EXPECT_TRUE(stream.still());
 }
 
