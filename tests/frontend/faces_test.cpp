@@ -68,20 +68,6 @@ TEST(Faces, AreTheSameOnEveryTargetAndThreadCount) {
     }
 }
 
-// Without the triangle flags, the same mesh gives the same screen positions in the same order.
-TEST(Faces, HaveThePositionsOfTheirTriangles) {
-  const Scene scene = scene_of_quads(false);
-  Scene plain = scene;
-  plain.meshes[0].flags.clear();
-  for (const Cull cull : cull_modes()) {
-    const auto quads = run(scene, with(cull)), halves = run(plain, with(cull));
-    ASSERT_EQ(quads.triangles.size(), halves.triangles.size());
-    for (std::size_t i = 0; i < quads.triangles.size(); ++i)
-      ASSERT_EQ(std::memcmp(&quads.triangles[i], &halves.triangles[i], offsetof(ScreenTriangle, payload)), 0);
-    EXPECT_EQ(std::memcmp(&quads.stats, &halves.stats, sizeof quads.stats), 0);
-  }
-}
-
 TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
   const Scene scene = scene_of_quads(false);
   const Mesh& mesh = scene.meshes[0];

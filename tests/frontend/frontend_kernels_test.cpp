@@ -491,6 +491,8 @@ void expect_states_agree(const Drawable& drawable, FrontendOptions options) {
     EXPECT_LE(count(TriangleState::clipped), stats.clipped);
     EXPECT_GT(count(TriangleState::clipped), 0u);
     EXPECT_EQ(count(TriangleState::culled) > 0, stats.culled > 0);
+    EXPECT_LE(count(TriangleState::culled), stats.culled);
+    EXPECT_LE(count(TriangleState::zero_area), stats.zero_area);
     std::vector<bool> emitted(states.size());
     for (const ScreenTriangle& t : triangles) emitted[t.payload] = true;
     for (std::size_t i = 0; i < states.size(); ++i)
@@ -505,24 +507,6 @@ TEST(FrontendKernels, StatesAgreeWithTheStatistics) {
       expect_states_agree(random_scene(spoilt), {.width = 300, .height = 200, .cull = cull});
       expect_states_agree(random_triangles(), {.width = 640, .height = 480, .cull = cull});
     }
-}
-
-TEST(FrontendKernels, StatesOfSingleTrianglesAreAsExpected) {
-  const auto state = [](glm::vec3 a, glm::vec3 b, glm::vec3 c, Cull cull = Cull::back) {
-    const TriangleStream stream{64, 64, {{{a, b, c}, 0xFFFFFFFFu}}};
-    Frontend frontend;
-    frontend.run(stream, {.width = 64, .height = 64, .cull = cull, .keep_states = true});
-    return frontend.states().front();
-  };
-  const glm::vec3 a{8, 8, 0.5f}, b{40, 8, 0.5f}, c{8, 40, 0.5f};
-  EXPECT_EQ(state(a, b, c), TriangleState::active);
-  EXPECT_EQ(state(a, c, b), TriangleState::culled);
-  EXPECT_EQ(state(a, c, b, Cull::none), TriangleState::active);
-  EXPECT_EQ(state(a, b, a), TriangleState::zero_area);
-  EXPECT_EQ(state(a, b, {8, kNan, 0.5f}), TriangleState::not_finite);
-  EXPECT_EQ(state(a, b, {8, 40, -0.5f}), TriangleState::clipped);
-  EXPECT_EQ(state(a, {8, 40, -0.5f}, b), TriangleState::culled) << "clipped, and then culled as a back face";
-  EXPECT_EQ(state({100, 8, 0.5f}, {140, 8, 0.5f}, {100, 40, 0.5f}), TriangleState::outside);
 }
 
 TEST(FrontendKernels, KeepsNoResultsAfterThrowing) {

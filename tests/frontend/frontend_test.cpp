@@ -52,11 +52,6 @@ testing::Emitted run(const Drawable& drawable,
   return testing::run(drawable, options, execution);
 }
 
-void expect_consistent(const FrontendStats& s) {
-  EXPECT_EQ(s.pieces, s.culled + s.zero_area + s.emitted);
-  EXPECT_LE(s.whole_mesh + s.not_finite + s.outside + s.not_in_front, s.triangles);
-}
-
 TEST(Snap, RoundsHalfToEvenAndClampsToTheGuardBand) {
   Random random(1);
   for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits) {
@@ -74,11 +69,6 @@ TEST(Snap, RoundsHalfToEvenAndClampsToTheGuardBand) {
   }
 }
 
-TEST(QuantizeDepth, ClampsToTheContractsRange) {
-  EXPECT_EQ(quantize_depth(-3.0f), contract::kDepthHead);
-  EXPECT_EQ(quantize_depth(7.0f), contract::kDepthHead + contract::kDepthRange);
-}
-
 TEST(Frontend, DropsNanAndInfiniteVerticesAndCountsThem) {
   for (const float bad : {kNan, kInf, -kInf})
     for (int vertex = 0; vertex < 3; ++vertex)
@@ -93,18 +83,6 @@ TEST(Frontend, DropsNanAndInfiniteVerticesAndCountsThem) {
         stream.triangles[0].vertex[vertex][axis] = bad;
         EXPECT_EQ(run(stream).stats.not_finite, 1u);
       }
-}
-
-TEST(Frontend, ClipsAtTheNearPlaneBeforeProjection) {
-  // A floor triangle from in front of the camera to behind it.
-  const auto result = run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}));
-  EXPECT_EQ(result.stats.clipped_near, 1u);
-  EXPECT_EQ(result.stats.emitted, 2u) << "one vertex is cut off, which leaves a quad";
-  for (const auto& t : result.triangles)
-    for (int i = 0; i < 3; ++i)
-      EXPECT_GE(t.y_q15[i], 50 * contract::kPixel_q15) << "the floor stays below the horizon";
-  expect_consistent(result.stats);
-  EXPECT_EQ(run(loose({{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}})).stats.emitted, 0u) << "wholly behind";
 }
 
 // Corners within a sub-unit of the guard band: clipping and snapping make the polygons slightly concave, so
@@ -160,24 +138,6 @@ TEST(Frontend, NeighboursGetTheSameVertexOnAClippedEdge) {
     ++cuts;
   }
   EXPECT_GT(cuts, 1000);
-}
-
-TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
-  Scene scene = loose(kFront);
-  scene.instances.push_back({.translation = {100, 0, 0}});   // id 1, not visible
-  scene.instances.push_back({.translation = {0.5f, 0, 0}});  // id 2
-  scene.instances.push_back({.translation = {0, 0, 50}});
-  FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id};
-  const auto result = run(scene, options);
-  EXPECT_EQ(result.stats.meshes, 4u);
-  EXPECT_EQ(result.stats.meshes_culled, 2u);
-  EXPECT_EQ(result.stats.whole_mesh, 2u);
-  ASSERT_EQ(result.triangles.size(), 2u);
-  EXPECT_EQ(result.triangles[0].payload, 0u);
-  EXPECT_EQ(result.triangles[1].payload, 2u);
-  EXPECT_LT(result.triangles[0].x_q15[0], result.triangles[1].x_q15[0]) << "instances keep their order";
-  for (const auto& piece : run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}), options).triangles)
-    EXPECT_EQ(piece.payload, 0u);
 }
 
 TEST(Frontend, IdsBeginAtTheFirstId) {
@@ -330,66 +290,42 @@ Polygon polygon_of(std::initializer_list<std::pair<int, int>> positions) {
   return polygon;
 }
 
-std::int64_t area(const Vertex& a, const Vertex& b, const Vertex& c) {
-  return std::int64_t{b.x_q15 - a.x_q15} * (c.y_q15 - a.y_q15) -
-         std::int64_t{b.y_q15 - a.y_q15} * (c.x_q15 - a.x_q15);
-}
-
-// Of a polygon; a fan has the same sum, whatever the signs of its triangles.
+// Twice the area.
 std::int64_t area(const Polygon& polygon) {
   std::int64_t sum = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i) sum += area(polygon[0], polygon[i - 1], polygon[i]);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vertex &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    sum += std::int64_t{p.x_q15} * q.y_q15 - std::int64_t{p.y_q15} * q.x_q15;
+  }
   return sum;
 }
 
-struct Areas {
-  std::int64_t sum = 0;
-  bool positive = false, negative = false;
-};
-Areas areas(const Polygon& polygon, const Pieces& pieces) {
-  Areas all;
-  for (std::size_t i = 0; i < pieces.count; ++i) {
-    const auto [a, b, c] = pieces.corners[i];
-    const std::int64_t one = area(polygon.at(a), polygon.at(b), polygon.at(c));
-    all.sum += one;
-    all.positive |= one > 0;
-    all.negative |= one < 0;
-  }
-  return all;
-}
-
-TEST(Pieces, AConvexPolygonBecomesAFan) {
-  const Polygon hexagon = polygon_of({{0, 0}, {20, -10}, {40, 0}, {40, 20}, {20, 30}, {0, 20}});
-  const Pieces pieces = split(hexagon);
-  ASSERT_EQ(pieces.count, 4u);
-  for (std::uint8_t i = 0; i < 4; ++i)
-    EXPECT_EQ(pieces.corners[i], (std::array<std::uint8_t, 3>{0, std::uint8_t(i + 1), std::uint8_t(i + 2)}));
-}
-
-TEST(Pieces, PiecesOfAConcavePolygonKeepItsWinding) {
-  // Vertex 1 of each is concave, so a fan from vertex 0 has a triangle of the opposite winding.
-  for (const Polygon& forward :
-       {polygon_of({{0, 0}, {50, 1}, {100, 0}, {50, 90}}),
-        polygon_of({{0, 0}, {1, 1}, {100, 0}, {100, 90}, {0, 90}}),
-        polygon_of({{0, 0}, {30, 1}, {100, 0}, {99, 40}, {100, 90}, {50, 89}, {0, 90}, {1, 50}, {2, 49}})}) {
-    const Polygon backward(forward.rbegin(), forward.rend());
-    for (Polygon polygon : {forward, backward})
+TEST(Pieces, HaveThePolygonsAreaAndWinding) {
+  const struct {
+    Polygon forward;
+    bool has_split = true;
+  } cases[] = {
+      {polygon_of({{0, 0}, {20, -10}, {40, 0}, {40, 20}, {20, 30}, {0, 20}})},
+      // Vertex 1 is concave, so a fan from vertex 0 has a triangle of the opposite winding.
+      {polygon_of({{0, 0}, {50, 1}, {100, 0}, {50, 90}})},
+      {polygon_of({{0, 0}, {1, 1}, {100, 0}, {100, 90}, {0, 90}})},
+      {polygon_of({{0, 0}, {30, 1}, {100, 0}, {99, 40}, {100, 90}, {50, 89}, {0, 90}, {1, 50}, {2, 49}})},
+      {polygon_of({{0, 0}, {100, 10}, {100, 0}, {0, 9}}), false}};  // crosses itself
+  for (const auto& [forward, has_split] : cases)
+    for (Polygon polygon : {forward, Polygon(forward.rbegin(), forward.rend())})
       for (std::size_t turn = 0; turn < polygon.size(); ++turn) {
         const Pieces pieces = split(polygon);
-        EXPECT_EQ(pieces.count, polygon.size() - 2);
-        const Areas found = areas(polygon, pieces);
-        EXPECT_EQ(found.sum, area(polygon));
-        EXPECT_FALSE(found.positive && found.negative) << "turn " << turn;
+        ASSERT_EQ(pieces.count, polygon.size() - 2);
+        std::int64_t sum = 0, sizes = 0;
+        for (std::size_t i = 0; i < pieces.count; ++i) {
+          const auto [a, b, c] = pieces.corners[i];
+          const std::int64_t one = area({polygon.at(a), polygon.at(b), polygon.at(c)});
+          sum += one, sizes += std::abs(one);
+        }
+        EXPECT_EQ(sum, area(polygon));
+        EXPECT_TRUE(!has_split || sizes == std::abs(sum)) << "turn " << turn;
         std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
       }
-  }
-}
-
-TEST(Pieces, ASelfCrossingPolygonKeepsItsArea) {
-  const Polygon bow = polygon_of({{0, 0}, {100, 10}, {100, 0}, {0, 9}});
-  const Pieces pieces = split(bow);
-  ASSERT_EQ(pieces.count, 2u);
-  EXPECT_EQ(areas(bow, pieces).sum, area(bow));
 }
 
 }  // namespace

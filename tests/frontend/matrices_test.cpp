@@ -234,32 +234,6 @@ TEST(Matrices, DropNothingThatIsFarAwayButInFrontOfAnInfiniteFarPlane) {
   }
 }
 
-// As far away as survey coordinates.
-TEST(Matrices, KeepTheirPrecisionFarFromTheOrigin) {
-  Scene near = std::get<Scene>(find_scene("torus-knot").make({}));
-  for (glm::vec3& p : near.meshes[0].positions)
-    p = glm::round(p * 8.0f) / 8.0f;  // floats hold them when moved
-  const glm::dvec3 away(412'348, -1e6, 5'572'096), away_in_mesh = away / 16.0;
-  const CameraMatrices camera = matrices_of(near.camera, 640.0 / 360);
-  const auto moved_view = [&](glm::dvec3 by) { return camera.view * glm::translate(glm::dmat4(1.0), -by); };
-  for (const bool parallel : {false, true}) {
-    const auto projection = [&](double depth) {
-      return parallel ? orthographic_projection(-3, 3, -2, 2, -depth, depth) : camera.projection;
-    };
-    near.matrices = CameraMatrices{camera.view, projection(1000)};
-    Scene far = near;
-    far.matrices->view = moved_view(away);
-    far.instances[0].translation += away;
-    expect_nearly_same(near, far, "by the instance");
-    near.matrices->projection = projection(10);
-    far = near;
-    far.matrices->view =
-        moved_view(glm::dvec3(model_matrix({}, far.instances[0]) * glm::dvec4(away_in_mesh, 0)));
-    for (glm::vec3& p : far.meshes[0].positions) p += glm::vec3(away_in_mesh);
-    expect_nearly_same(near, far, "in the mesh", 2, 1024);
-  }
-}
-
 // Rectangles of two triangles. One is 4 before the camera, and visible to the right of x = -0.4, where z = 0.
 // The other's distance changes with x: from 0 at the left to 10 at the right.
 TEST(Matrices, PlanesClipWhereZIsZeroOrW) {
@@ -298,19 +272,6 @@ TEST(Matrices, PlanesClipWhereZIsZeroOrW) {
     EXPECT_EQ(least, c.least_px);
     EXPECT_NEAR(most, c.most_px, 1 / 256.0);
   }
-}
-
-TEST(Matrices, WithoutAFarPlaneShowEveryDistance) {
-  Scene scene;
-  constexpr float kFar = 1e30f;
-  scene.meshes.push_back({{{-1, -1, -2}, {-1, 1, -2}, {kFar, 0, -4 * kFar}}, {{0, 1, 2}}, {1}});
-  scene.instances.emplace_back();
-  scene.matrices = CameraMatrices{glm::dmat4(1.0), perspective_projection(1.5, 2, 1, kInfinity)};
-  const auto shown = run(scene, {.width = 200, .height = 100, .cull = Cull::back});
-  EXPECT_EQ(shown.stats.clipped, 0u);
-  ASSERT_EQ(shown.triangles.size(), 1u);
-  EXPECT_EQ(shown.triangles[0].z[0], contract::kDepthHead + contract::kDepthRange / 2);
-  EXPECT_EQ(shown.triangles[0].z[2], contract::kDepthHead + contract::kDepthRange);
 }
 
 Scene knot_of(const Instance& instance) {

@@ -164,26 +164,6 @@ TEST(Positions, ClippedTrianglesKeepTheCornersTheyShare) {
   EXPECT_GT(before_near, 50);
 }
 
-// Doubles hold the moved positions exactly.
-TEST(Positions, MovingCameraAndInstancesChangesNoBit) {
-  for (const SceneInfo& info : builtin_scenes()) {
-    if (info.stream) continue;
-    Scene scene = std::get<Scene>(info.make({}));
-    const auto to_grid = [](glm::dvec3& v) { v = glm::round(v * 0x1p20) * 0x1p-20; };
-    to_grid(scene.camera.position);
-    for (Instance& instance : scene.instances) to_grid(instance.translation);
-    Scene moved = scene;
-    const glm::dvec3 by(0x1p30, -0x1p28, 0x1p29 + 1);
-    moved.camera.position += by;
-    for (Instance& instance : moved.instances) instance.translation += by;
-    Frontend here, there;
-    const FrontendOptions options{.width = 320, .height = 180};
-    const auto a = here.run(scene, options), b = there.run(moved, options);
-    EXPECT_EQ(here.stats(), there.stats()) << info.name;
-    testing::expect_same_triangles(a, b, std::string(info.name));
-  }
-}
-
 // The longest side is a millionth of the distance from the origin, as in survey coordinates.
 TEST(Positions, FitAndFrameCameraKeepWhatIsFarFromTheOrigin) {
   Scene near = std::get<Scene>(find_scene("torus-knot").make({}));
