@@ -181,31 +181,22 @@ void expect_nearly_same(const Drawable& a, const Drawable& b, const std::string&
     }
 }
 
+// Straight and reversed depth differ in no pixel.
 TEST(Matrices, OfACameraShowWhatItShows) {
   for (const SceneInfo& info : builtin_scenes()) {
     if (info.stream) continue;
+    const std::string name(info.name);
     const Scene scene = std::get<Scene>(info.make({}));
-    Scene seen = scene;
-    seen.matrices = matrices_of(scene.camera, 640.0 / 360);
-    seen.camera = {};  // has no effect
-    expect_nearly_same(scene, seen, std::string(info.name));
-  }
-}
-
-TEST(Matrices, ReversedDepthChangesNoPixel) {
-  for (const SceneInfo& info : builtin_scenes()) {
-    if (info.stream) continue;
-    Scene scene = std::get<Scene>(info.make({}));
-    const CameraMatrices straight = matrices_of(scene.camera, 640.0 / 360);
     const Camera& c = scene.camera;
-    const CameraMatrices reversed{
-        straight.view,  // near and far change places
-        projection_from({.reversed = true}, glm::perspectiveRH_ZO(double{c.fov_y}, 640.0 / 360,
-                                                                  double{c.far_z}, double{c.near_z}))};
-    scene.matrices = straight;
-    Scene other = scene;
-    other.matrices = reversed;
-    expect_nearly_same(scene, other, std::string(info.name), 0, 1);
+    Scene straight = scene;
+    straight.matrices = matrices_of(c, 640.0 / 360);
+    straight.camera = {};  // has no effect
+    expect_nearly_same(scene, straight, name);
+    Scene reversed = straight;  // near and far change places
+    reversed.matrices->projection = projection_from(
+        {.reversed = true},
+        glm::perspectiveRH_ZO(double{c.fov_y}, 640.0 / 360, double{c.far_z}, double{c.near_z}));
+    expect_nearly_same(straight, reversed, name, 0, 1);
   }
 }
 
@@ -337,39 +328,34 @@ std::string refusal(const CameraMatrices& matrices) {
 
 TEST(Matrices, AreRefusedIfNothingCanBeSeenThroughThem) {
   const glm::dmat4 one(1.0), perspective = perspective_projection(1, 1, 0.1, 100);
+  glm::dmat4 infinite(1.0), nan(1.0), flat(1.0);
+  infinite[2].y = kInfinity, nan[2].y = std::nan(""), flat[1].y = 0.0;
+  const std::pair<CameraMatrices, const char*> cases[] = {
+      {{infinite, perspective}, "finite"},
+      {{one, nan}, "finite"},
+      {{flat, perspective}, "no inverse"},
+      {{one, flat}, "no inverse"},
+      {{glm::dmat4(0.0), perspective}, "no inverse"},
+      {{one, glm::dmat4(1e-200)}, "no inverse"},  // GLM's determinant underflows
+      {{one, -perspective}, "w is never positive"},
+      {{one, -one}, "w is never positive"},
+      {{one, glm::perspectiveRH_ZO(1.0, 1.0, 100.0, 0.1)}, "reversed"},
+      {{one, perspective_projection(1, 1, 1e-40, 1)}, "out of the range"},
+      {{one, perspective_projection(1, 1, 1e39, 1e40)}, "out of the range"},
+      {{one, glm::dmat4(1e-50)}, "out of the range"}};
+  for (const auto& [matrices, expected] : cases)
+    EXPECT_NE(refusal(matrices).find(expected), std::string::npos) << expected;
   EXPECT_EQ(refusal({one, perspective}), "");
-  for (const double bad : {kInfinity, std::nan("")}) {
-    glm::dmat4 m(1.0);
-    m[2].y = bad;
-    EXPECT_EQ(refusal({m, perspective}), "the elements of the camera's matrices must be finite");
-    EXPECT_EQ(refusal({one, m}), "the elements of the camera's matrices must be finite");
-  }
-  const char* const kSingular = "the camera's matrices have no inverse";
-  glm::dmat4 flat(1.0);
-  flat[1].y = 0.0;
-  EXPECT_EQ(refusal({flat, perspective}), kSingular);
-  EXPECT_EQ(refusal({one, flat}), kSingular);
-  EXPECT_EQ(refusal({glm::dmat4(0.0), perspective}), kSingular);
-  EXPECT_EQ(refusal({one, glm::dmat4(1e-200)}), kSingular) << "GLM's determinant underflows";
+  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1, 1e40)}), "");
   Random random(48);
   for (int trial = 0; trial < 200; ++trial) {  // of rank 3, but for rounding
     glm::dmat4 view(1.0);
     for (int i = 0; i < 2; ++i)
       for (int k = 0; k < 3; ++k) view[i][k] = random.uniform(-1.0f, 1.0f);
     view[2] = 0.3 * view[0] + 0.7 * view[1];
-    EXPECT_EQ(refusal({view, perspective}).empty(), false);
-    EXPECT_EQ(refusal({view, orthographic_projection(-1, 1, -1, 1, 1, 9)}), kSingular);
+    EXPECT_NE(refusal({view, perspective}), "");
+    EXPECT_NE(refusal({view, orthographic_projection(-1, 1, -1, 1, 1, 9)}), "");
   }
-  const char* const kNothing = "the camera's matrices show nothing: w is never positive";
-  EXPECT_EQ(refusal({one, -perspective}), kNothing);
-  EXPECT_EQ(refusal({one, -one}), kNothing);
-  const std::string reversed = refusal({one, glm::perspectiveRH_ZO(1.0, 1.0, 100.0, 0.1)});
-  EXPECT_EQ(reversed, "z / w falls with the distance; see ClipSpace::reversed in camera.h");
-  const char* const kTooFar = "the least w that the camera's matrices show is out of the range of float";
-  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1e-40, 1)}), kTooFar);
-  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1e39, 1e40)}), kTooFar);
-  EXPECT_EQ(refusal({one, glm::dmat4(1e-50)}), kTooFar);
-  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1, 1e40)}), "");
 }
 
 TEST(InstanceMatrices, AreRefusedUnlessFiniteAndAffine) {
