@@ -222,18 +222,11 @@ TEST(FrontendKernels, StreamsInDoubleAreRoundedOnce) {
   }
 }
 
-// A float in [0, 1] in contract units, rounded half to even in integer arithmetic.
+// A float in [0, 1] in contract units, rounded half to even. A long double holds the product.
 std::uint32_t exact_depth(float z01) {
-  const auto bits = std::bit_cast<std::uint32_t>(z01);
-  const std::uint32_t exponent = bits >> 23, fraction = bits & 0x7FFFFF;
-  const std::uint32_t mantissa = exponent == 0 ? fraction : fraction | 1u << 23;
-  const std::uint32_t shift = 150 - std::max(exponent, 1u);  // z01 = mantissa / 2^shift
-  if (shift > 60) return contract::kDepthHead;               // less than half a unit
-  const std::uint64_t product = std::uint64_t{mantissa} * contract::kDepthRange;
-  const std::uint64_t whole = product >> shift, rest = product - (whole << shift);
-  const std::uint64_t half = std::uint64_t{1} << (shift - 1);
-  const bool up = rest > half || (rest == half && whole % 2 == 1);
-  return contract::kDepthHead + static_cast<std::uint32_t>(whole) + (up ? 1 : 0);
+  static_assert(std::numeric_limits<long double>::digits >= 64);
+  const auto product = static_cast<long double>(z01) * contract::kDepthRange;
+  return contract::kDepthHead + static_cast<std::uint32_t>(std::nearbyint(product));
 }
 
 // With every SIMD target's kernel, and with quantize_depth(). At full size all floats in [0, 1]; otherwise
