@@ -525,13 +525,5 @@ TEST(FrontendKernels, KeepsNoResultsAfterThrowing) {
   }
 }
 
-TEST(FrontendKernels, AMeshWithoutAFiniteVertexIsNotCulled) {
-  Scene scene = random_scene(false);
-  for (auto& p : scene.meshes[0].positions) p.x = kNan;
-  const auto stats = run(scene, {}).stats;
-  EXPECT_EQ(stats.meshes_culled, 0u);
-  EXPECT_EQ(stats.not_finite, stats.triangles);
-}
-
 }  // namespace
 }  // namespace edgewise
