@@ -10,7 +10,6 @@
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "frontend/shade.h"
-#include "message_of.h"
 #include "support.h"
 
 namespace edgewise {
@@ -187,18 +186,6 @@ TEST(Faces, WithTwoSidesAreLitOnTheVisibleSide) {
         colour_of(scene);
       }
   }
-}
-
-TEST(Faces, AreRefusedIfTheirFlagsOrNormalsAreInvalid) {
-  const Scene good = scene_of_quads(false);
-  const auto refusal = [&](auto change) {
-    Scene scene = good;
-    change(scene.meshes[0]);
-    return message_of([&] { run(scene, with(Cull::back)); });
-  };
-  EXPECT_NE(refusal([](Mesh& mesh) { mesh.flags.pop_back(); }), "");
-  EXPECT_NE(refusal([](Mesh& mesh) { mesh.flags[0] = kSameFace; }), "");
-  EXPECT_NE(refusal([](Mesh& mesh) { mesh.normals.pop_back(); }), "");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,6 @@
 #include "frontend/fixed.h"
 #include "lab/cases/backend_comparison.h"
 #include "lab/cases/random_cases.h"
-#include "message_of.h"
 #include "support.h"
 
 namespace edgewise {
@@ -259,6 +259,18 @@ TEST(Frontend, RefusesInvalidInput) {
   expect_refused([](Scene& s, FrontendOptions&) { s.instances[0].mesh = 1; });
   expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].triangles[0].z = 3; });
   expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].colours.clear(); });
+  expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].flags.resize(2); });
+  expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].flags = {kSameFace}; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].normals.resize(2); });
+  expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].clusters.resize(2); });
+  expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].origin.y = kNan; });
+  for (const auto& [column, row, value] :
+       {std::tuple{0, 1, kInf}, {3, 2, kNan}, {0, 3, 0.1f}, {3, 3, 2.0f}}) {  // not finite, or not affine
+    Scene scene = loose(kFront);
+    glm::dmat4& matrix = scene.instances[0].matrix.emplace(1.0);
+    matrix[column][row] = double{value};
+    EXPECT_THROW(run(scene), std::invalid_argument) << column << ", " << row;
+  }
   for (const int threads : {0, -1, kMaxThreads + 1})
     EXPECT_THROW(run(loose(kFront), {}, {.threads = threads}), std::invalid_argument);
 }

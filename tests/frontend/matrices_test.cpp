@@ -373,17 +373,5 @@ TEST(Matrices, AreRefusedIfNothingCanBeSeenThroughThem) {
   }
 }
 
-TEST(InstanceMatrices, AreRefusedUnlessFiniteAndAffine) {
-  const auto refused = [](int column, int row, double value) {
-    Instance instance{.matrix = glm::dmat4(1.0)};
-    (*instance.matrix)[column][row] = value;
-    return message_of([&] { run(knot_of(instance), {}); });
-  };
-  EXPECT_EQ(refused(2, 2, 0.0), "");
-  for (const auto& message :
-       {refused(0, 1, kInfinity), refused(3, 2, std::nan("")), refused(0, 3, 0.1), refused(3, 3, 2.0)})
-    EXPECT_NE(message, "");
-}
-
 }  // namespace
 }  // namespace edgewise

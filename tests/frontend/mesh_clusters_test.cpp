@@ -220,8 +220,6 @@ TEST(MeshClusters, OfOtherTrianglesAreRefused) {
   Scene scene = grid();
   scene.meshes[0].triangles[51'300].y = kSide * kSide;
   EXPECT_NE(message_of([&] { Frontend().run(scene, {}); }).find("names vertex"), std::string::npos);
-  scene.meshes[0].clusters.pop_back();
-  EXPECT_NE(message_of([&] { Frontend().run(scene, {}); }).find("clusters instead of"), std::string::npos);
 }
 
 }  // namespace
