@@ -62,10 +62,11 @@ std::vector<ScreenTriangle> one_by_one(const Drawable& drawable, FrontendOptions
   return triangles;
 }
 
-void expect_within_the_contract(std::span<const ScreenTriangle> triangles) {
+void expect_within_the_contract(std::span<const ScreenTriangle> triangles, int subpixel_bits) {
   for (const ScreenTriangle& t : triangles)
     for (int k = 0; k < 3; ++k) {
       ASSERT_LE(std::max(std::abs(t.x_q15[k]), std::abs(t.y_q15[k])), contract::kGuard_q15);
+      ASSERT_EQ((t.x_q15[k] | t.y_q15[k]) % (1 << (contract::kFineBits - subpixel_bits)), 0);
       ASSERT_GE(t.z[k], contract::kDepthHead);
       ASSERT_LE(t.z[k], contract::kDepthHead + contract::kDepthRange);
     }
@@ -73,7 +74,7 @@ void expect_within_the_contract(std::span<const ScreenTriangle> triangles) {
 
 void expect_alike(const Drawable& drawable, const FrontendOptions& options) {
   const auto expected = one_by_one(drawable, options);
-  expect_within_the_contract(expected);
+  expect_within_the_contract(expected, options.subpixel_bits);
   const FrontendStats stats = run(drawable, options, {.target = SimdTarget::scalar}).stats;
   EXPECT_GT(stats.emitted, 0u);
   const auto targets = supported_targets();
@@ -124,19 +125,6 @@ TEST(FrontendKernels, StreamsAreTheSameOnEveryTargetAndThreadCount) {
   for (const Cull cull : {Cull::none, Cull::back, Cull::front})
     for (const Payload payload : {Payload::colour, Payload::id})
       expect_all_alike(random_triangles(), {.width = 640, .height = 480, .cull = cull, .payload = payload});
-}
-
-// The vertices are multiples of 2^-15 px, which 4 and 8 bits round.
-TEST(FrontendKernels, PositionsUseTheSubpixelBits) {
-  for (const Drawable& drawable : {Drawable(random_scene(false)), Drawable(random_triangles())})
-    for (int bits = kMinSubpixelBits; bits <= kMaxSubpixelBits; ++bits) {
-      const auto triangles = run(drawable, {.width = 640, .height = 480, .subpixel_bits = bits}).triangles;
-      std::int32_t used = 0;
-      for (const ScreenTriangle& t : triangles)
-        for (int k = 0; k < 3; ++k) used |= t.x_q15[k] | t.y_q15[k];
-      EXPECT_EQ(used & ((1 << contract::kFineBits) - 1),
-                (1 << contract::kFineBits) - (1 << (contract::kFineBits - bits)));
-    }
 }
 
 TriangleStream in_double(const TriangleStream& stream) {

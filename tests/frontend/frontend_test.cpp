@@ -198,25 +198,6 @@ TEST(Frontend, DrawsATriangleNearTheLargestFloats) {
   EXPECT_EQ(lab::covered_pixels(result.triangles, 100, 100), 100u * 100u);
 }
 
-TEST(Frontend, ShadesScaledInstancesLikeScaledMeshes) {
-  Random random(23);
-  for (int i = 0; i < 200; ++i) {
-    std::vector<glm::vec3> corners(3);
-    for (auto& c : corners) c = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-    Scene scene = loose(corners);
-    const auto factor = [&] { return random.uniform(0.2f, 1.0f) * (random.below(2) ? 1.0f : -1.0f); };
-    scene.instances[0] = {.scale = {factor(), factor(), factor()},
-                          .axis = {random.uniform(-1, 1), random.uniform(-1, 1), 1.0f},
-                          .angle = random.uniform(0, 6),
-                          .translation = {0, 0, -6}};
-    for (auto& c : corners) c = glm::vec3(model_matrix({}, scene.instances[0]) * glm::dvec4(c, 1.0));
-    Scene stretched = loose(corners);
-    scene.to_light = stretched.to_light = {0.3f, 0.5f, 0.8f};
-    const auto red = [](const Scene& s) { return static_cast<double>(run(s).triangles.at(0).payload & 255); };
-    ASSERT_NEAR(red(scene), red(stretched), 1) << "triangle " << i;
-  }
-}
-
 TEST(Frontend, UnsnappedTrianglesRoundToTheSnappedOnes) {
   for (const auto name : {"terrain", "small"}) {
     const Drawable drawable = find_scene(name).make({.width = 300, .height = 200, .scale = 0.01});

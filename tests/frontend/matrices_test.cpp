@@ -309,19 +309,21 @@ TEST(Matrices, NoneAreNeededToFitOrFrameWhatIsFarFromTheOrigin) {
   }
 }
 
-// A matrix's columns, sheared or flattened, against a mesh whose vertices are already transformed.
-TEST(InstanceMatrices, MayShearAndFlatten) {
+// A matrix's columns, sheared, mirrored or flattened, against a mesh whose vertices are already transformed.
+TEST(InstanceMatrices, MayShearMirrorAndFlatten) {
   const glm::dmat4 kShear(1, 0, 0, 0, 0.5, 1.25, -0.25, 0, -0.75, 0.25, 1, 0, 0, 0, 0, 1),
       kFlat(1, 0, 0, 0, 0.5, 0, 0.25, 0, -0.75, 0, 1, 0, 0, 0.5, 0, 1),
       kNearlyFlat(1, 0, 0, 0, 0.5, 0x1p-30, 0.25, 0, -0.75, 0, 1, 0, 0, 0.5, 0, 1);
   Scene knot = knot_of({});
   for (glm::vec3& p : knot.meshes[0].positions)
     p = glm::round(p * 64.0f) / 64.0f;  // so that shears are exact
-  for (const glm::dmat4& matrix : {kShear, kFlat, kNearlyFlat})
+  glm::dmat4 mirror = kShear;
+  mirror[0].x = -1;
+  for (const glm::dmat4& matrix : {kShear, mirror, kFlat, kNearlyFlat})
     for (const double away : {0.0, 1e6}) {
       const glm::dvec3 by(away, -away, 3 * away);
       Scene expected = knot, given = knot;
-      if (matrix != kShear) {  // normals of flat triangles differ
+      if (matrix == kFlat || matrix == kNearlyFlat) {  // normals of flat triangles differ
         std::ranges::fill(expected.meshes[0].colours, 0u);
         std::ranges::fill(given.meshes[0].colours, 0u);
       }
