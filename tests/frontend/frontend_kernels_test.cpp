@@ -95,12 +95,12 @@ void expect_all_alike(const Drawable& drawable, FrontendOptions options) {
   }
 }
 
-TEST(FrontendKernels, MeshesAreTheSameOnEveryTargetAndThreadCount) {
-  for (const bool spoilt : {false, true})
+TEST(FrontendKernels, TrianglesAreTheSameOnEveryTargetAndThreadCount) {
+  for (const Drawable& drawable :
+       {Drawable(random_scene(false)), Drawable(random_scene(true)), Drawable(random_triangles())})
     for (const Cull cull : {Cull::none, Cull::back, Cull::front})
       for (const Payload payload : {Payload::colour, Payload::id})
-        expect_all_alike(random_scene(spoilt),
-                         {.width = 300, .height = 200, .cull = cull, .payload = payload});
+        expect_all_alike(drawable, {.width = 640, .height = 480, .cull = cull, .payload = payload});
   expect_all_alike(random_scene(true), {.width = 300, .height = 200, .shade = false});
 }
 
@@ -119,12 +119,6 @@ TEST(FrontendKernels, MeshesSeenByMatricesAreTheSameOnEveryTargetAndThreadCount)
       scene.matrices = matrices;
       expect_all_alike(scene, {.width = 300, .height = 200, .cull = Cull::back});
     }
-}
-
-TEST(FrontendKernels, StreamsAreTheSameOnEveryTargetAndThreadCount) {
-  for (const Cull cull : {Cull::none, Cull::back, Cull::front})
-    for (const Payload payload : {Payload::colour, Payload::id})
-      expect_all_alike(random_triangles(), {.width = 640, .height = 480, .cull = cull, .payload = payload});
 }
 
 TriangleStream in_double(const TriangleStream& stream) {
