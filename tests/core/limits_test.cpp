@@ -57,10 +57,8 @@ void expect_refused(const std::function<void()>& action) {
   EXPECT_EXIT(exit_as_refused(action), ::testing::ExitedWithCode(0), "");
 }
 
-TEST(LimitsDeathTest, TheFrontEndAndObjectsRefuseTooManyTrianglesAndThreads) {
+TEST(LimitsDeathTest, TheFrontEndAndObjectsRefuseTooManyTriangles) {
   expect_refused([] { Frontend().run(too_many(), {}); });
-  expect_refused([] { Frontend().run(Scene{}, {}, {.threads = kMaxThreads + 1}); });
-  expect_refused([] { Frontend().run(Scene{}, {.width = contract::kMaxImageSide + 1}); });
   expect_refused([] {
     Scene scene = too_many();
     scene.instances.resize(1);

@@ -3,24 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
-#include <vector>
 
 namespace edgewise {
 namespace {
-
-TEST(ParallelFor, CallsEachIndexOnce) {
-  for (const int threads : {1, 2, 64})
-    for (const int count : {0, 1, 2, 1000}) {
-      std::vector<std::atomic<int>> calls(static_cast<std::size_t>(count));
-      parallel_for(threads, count, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
-      EXPECT_TRUE(std::ranges::all_of(calls, [](const auto& n) { return n == 1; })) << count;
-    }
-}
 
 // The tasks wait for each other. The deadline turns a hang into a failure.
 TEST(ParallelFor, RunsTasksAtTheSameTimeAndRethrows) {

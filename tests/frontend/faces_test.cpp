@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "frontend/shade.h"
-#include "message_of.h"
 #include "support.h"
 
 namespace edgewise {
@@ -66,20 +64,6 @@ TEST(Faces, AreTheSameOnEveryTargetAndThreadCount) {
           expect_same_triangles(found, expected, std::string(name_of(target)));
         }
     }
-}
-
-// Without the triangle flags, the same mesh gives the same screen positions in the same order.
-TEST(Faces, HaveThePositionsOfTheirTriangles) {
-  const Scene scene = scene_of_quads(false);
-  Scene plain = scene;
-  plain.meshes[0].flags.clear();
-  for (const Cull cull : cull_modes()) {
-    const auto quads = run(scene, with(cull)), halves = run(plain, with(cull));
-    ASSERT_EQ(quads.triangles.size(), halves.triangles.size());
-    for (std::size_t i = 0; i < quads.triangles.size(); ++i)
-      ASSERT_EQ(std::memcmp(&quads.triangles[i], &halves.triangles[i], offsetof(ScreenTriangle, payload)), 0);
-    EXPECT_EQ(std::memcmp(&quads.stats, &halves.stats, sizeof quads.stats), 0);
-  }
 }
 
 TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
@@ -178,48 +162,29 @@ Scene scene_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
   return scene;
 }
 
-std::uint32_t colour_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
-  const Scene scene = scene_of_square(two_sided, turned, to_light);
+std::uint32_t colour_of(const Scene& scene) {
   const auto triangles = run(scene, with(Cull::none)).triangles;
   EXPECT_EQ(triangles.size(), 2u);
-  EXPECT_EQ(triangles.front().payload, triangles.back().payload);
-  EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, triangles.front().payload));
-  return triangles.front().payload;
-}
-
-TEST(Faces, WithTwoSidesAreLitOnTheVisibleSide) {
-  const std::uint32_t light = rgb(200, 200, 200), dark = rgb(30, 30, 30);
-  for (const bool turned : {false, true}) {
-    EXPECT_EQ(colour_of_square(true, turned, {0, 0, 1}), light);
-    EXPECT_EQ(colour_of_square(true, turned, {0, 0, -1}), dark);
-    EXPECT_EQ(colour_of_square(false, turned, {0, 0, 1}), turned ? dark : light);
-  }
+  EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, triangles.at(0).payload));
+  EXPECT_EQ(triangles.at(1).payload, triangles[0].payload);
+  return triangles[0].payload;
 }
 
 // By matrices too, mirroring or not, although the view's direction has no position.
-TEST(Faces, WithTwoSidesAreLitOnTheSideThatMatricesShow) {
-  for (const double mirror : {1.0, -1.0})
-    for (const glm::dmat4& projection :
-         {orthographic_projection(-2 * mirror, 2 * mirror, -2, 2, 1, 9), perspective_projection(1, 1, 1, 9)})
-      for (const glm::vec3 to_light : {glm::vec3(0, 0, 1), {0, 0, -1}}) {
-        Scene scene = scene_of_square(true, false, to_light);
+TEST(Faces, WithTwoSidesAreLitOnTheVisibleSide) {
+  for (const float side : {1.0f, -1.0f}) {
+    const std::uint32_t shade = side > 0 ? rgb(200, 200, 200) : rgb(30, 30, 30);
+    for (const bool turned : {false, true})
+      EXPECT_EQ(colour_of(scene_of_square(true, turned, {0, 0, side})), shade);
+    EXPECT_EQ(colour_of(scene_of_square(false, side < 0, {0, 0, 1})), shade);
+    Scene scene = scene_of_square(true, false, {0, 0, side});
+    for (const double mirror : {1.0, -1.0})
+      for (const glm::dmat4& projection : {orthographic_projection(-2 * mirror, 2 * mirror, -2, 2, 1, 9),
+                                           perspective_projection(1, 1, 1, 9)}) {
         scene.matrices = CameraMatrices{glm::dmat4(1.0), projection};
-        const auto triangles = run(scene, with(Cull::none)).triangles;
-        ASSERT_EQ(triangles.size(), 2u);
-        EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, triangles.front().payload));
+        colour_of(scene);
       }
-}
-
-TEST(Faces, AreRefusedIfTheirFlagsOrNormalsAreInvalid) {
-  Scene scene = scene_of_quads(false);
-  scene.meshes[0].flags.pop_back();
-  EXPECT_NE(message_of([&] { run(scene, with(Cull::back)); }), "");
-  scene = scene_of_quads(false);
-  scene.meshes[0].flags[0] = kSameFace;
-  EXPECT_EQ(message_of([&] { run(scene, with(Cull::back)); }), "a mesh's first triangle has kSameFace");
-  scene = scene_of_quads(false);
-  scene.meshes[0].normals.pop_back();
-  EXPECT_EQ(message_of([&] { run(scene, with(Cull::back)); }), "a mesh has 6600 triangles and 6599 normals");
+  }
 }
 
 }  // namespace

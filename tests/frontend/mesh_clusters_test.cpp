@@ -126,20 +126,6 @@ TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
       }
 }
 
-TEST(MeshClusters, GiveTheTrianglesOfTheWholeMeshToMatrices) {
-  Scene scene = two_grids();
-  scene.instances = {{}, {.scale = {-1, 2, 0.5f}, .angle = 1}};
-  scene.camera.pitch = -0.5f;  // else a parallel projection sees the grid from its edge
-  const glm::dmat4 view = matrices_of(scene.camera, 1.6).view;
-  for (const glm::dmat4& projection :
-       {orthographic_projection(-9, 9, -5, 5, -20, 30), perspective_projection(1, 1.6, 0.5, 1e3)})
-    for (const bool in_one : {false, true}) {
-      scene.matrices =
-          in_one ? CameraMatrices{glm::dmat4(1.0), projection * view} : CameraMatrices{view, projection};
-      expect_same_without_clusters(scene, {.width = 320, .height = 200, .cull = Cull::none}, {});
-    }
-}
-
 TEST(MeshClusters, AreDroppedOutsideTheView) {
   Scene scene = grid();
   Frontend frontend;
@@ -234,8 +220,6 @@ TEST(MeshClusters, OfOtherTrianglesAreRefused) {
   Scene scene = grid();
   scene.meshes[0].triangles[51'300].y = kSide * kSide;
   EXPECT_NE(message_of([&] { Frontend().run(scene, {}); }).find("names vertex"), std::string::npos);
-  scene.meshes[0].clusters.pop_back();
-  EXPECT_NE(message_of([&] { Frontend().run(scene, {}); }).find("clusters instead of"), std::string::npos);
 }
 
 }  // namespace

@@ -1,90 +1,239 @@
-// Rule 10: positions far from the origin.
+// Rule 10: positions, against exact products of the matrices, and far from the origin.
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <variant>
 #include <vector>
 
 #include "core/random.h"
-#include "edgewise/backend.h"
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
-#include "support.h"
+#include "frontend/view.h"
 
 namespace edgewise {
 namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;
+constexpr double kGuardPx = contract::kMaxImageSide;
 
-using Exact = glm::tvec3<long double>;
+using Homogeneous = std::array<mpq_class, 4>;
 
-// Where a vertex of an instance without scale or rotation is seen: x and y in pixels, and w.
-Exact seen(const Camera& camera, const Instance& instance, glm::vec3 position) {
-  const Exact v = Exact(position) + (Exact(instance.translation) - Exact(camera.position));
-  const long double yaw = camera.yaw, pitch = camera.pitch;
-  const long double x = std::cos(yaw) * v.x - std::sin(yaw) * v.z,
-                    back = std::sin(yaw) * v.x + std::cos(yaw) * v.z;
-  const long double y = std::cos(pitch) * v.y + std::sin(pitch) * back,
-                    w = std::sin(pitch) * v.y - std::cos(pitch) * back;
-  const long double focal = kHeight / 2.0L / std::tan(static_cast<long double>(camera.fov_y) / 2);
-  return {kWidth / 2.0L + focal * x / w, kHeight / 2.0L - focal * y / w, w};
+Homogeneous operator*(const glm::dmat4& m, const Homogeneous& v) {
+  Homogeneous sum{};
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      sum[static_cast<std::size_t>(row)] += mpq_class(m[column][row]) * v[static_cast<std::size_t>(column)];
+  return sum;
+}
+
+Homogeneous as_homogeneous(glm::vec3 position) {
+  return {position.x, position.y, position.z, 1};
+}
+
+double ratio(const mpq_class& a, const mpq_class& b) {
+  return mpq_class(a / b).get_d();
+}
+
+// A scene of one instance, its truth, and what rule 10 needs.
+struct Case {
+  Scene scene;
+  std::vector<glm::dmat4> matrices;  // from x, y, z and w in the image to the mesh
+
+  Homogeneous exact(glm::vec3 position) const {
+    Homogeneous v = as_homogeneous(position);
+    for (std::size_t i = matrices.size(); i-- > 0;) v = matrices[i] * v;
+    return v;
+  }
+  ScreenTransform to_screen() const {
+    return {View(scene, kWidth, kHeight, /*fine=*/true), model_matrix(scene.meshes[0], scene.instances[0])};
+  }
+};
+
+double row_length(const glm::dmat4x3& m, int row) {
+  return glm::length(glm::dvec3(m[0][row], m[1][row], m[2][row]));
+}
+
+// Of x and y before they are snapped, `distance` and w being the vertex'.
+double bound_px(const ScreenTransform& m, double distance, double w) {
+  constexpr double kSide = 2 * kGuardPx;
+  const double length =
+      std::max(row_length(m.exact, 0), row_length(m.exact, 1)) + kSide * row_length(m.exact, 2);
+  return contract::kFinePositionError * (length * distance / w + kSide);
+}
+
+glm::dvec3 point_within(Random& random, double reach) {
+  const auto one = [&] { return reach * double{random.uniform(-1, 1)}; };
+  const double x = one(), y = one();
+  return {x, y, one()};
+}
+
+glm::dmat4 viewport() {
+  const double half_w = kWidth / 2.0, half_h = kHeight / 2.0;
+  return {half_w, 0, 0, 0, 0, -half_h, 0, 0, 0, 0, 1, 0, half_w, half_h, 0, 1};
+}
+
+// Triangles about `distance` before a camera that is up to `away` from the instance's origin. kind 0: a
+// Camera, 1: a usual perspective, 2: a parallel projection, 3: a perspective that is multiplied with the
+// view.
+Case make_case(Random& random, int kind, double away, double distance, double size) {
+  Case c;
+  Camera& camera = c.scene.camera;
+  camera.position = point_within(random, 0x1p20);
+  camera.yaw = random.uniform(-3, 3), camera.pitch = random.uniform(-1.5f, 1.5f);
+  camera.fov_y = random.uniform(0.01f, 3.0f);
+  camera.near_z = static_cast<float>(distance / 100), camera.far_z = static_cast<float>(distance * 100);
+  const glm::dvec3 forward(-std::sin(camera.yaw) * std::cos(camera.pitch), std::sin(camera.pitch),
+                           -std::cos(camera.yaw) * std::cos(camera.pitch));
+  Instance& instance = c.scene.instances.emplace_back();
+  instance.axis = point_within(random, 1), instance.angle = random.uniform(-3, 3);
+  instance.translation = camera.position + point_within(random, away);
+  Mesh& mesh = c.scene.meshes.emplace_back();
+  const glm::dmat4 model = model_matrix(mesh, instance);
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 world = camera.position + distance * forward + point_within(random, size);
+    mesh.positions.emplace_back(glm::inverse(model) * glm::dvec4(world, 1.0));
+  }
+  mesh.triangles = {{0, 1, 2}};
+  mesh.colours = {0};
+  if (kind == 0) {
+    const View view(camera, kWidth, kHeight);
+    glm::dmat4 rows(0.0);
+    for (int i = 0; i < 3; ++i)
+      rows[i] = glm::dvec4(view.pixels[i].x, view.pixels[i].y, 0.0, view.pixels[i].z);
+    c.matrices = {rows, glm::translate(glm::dmat4(1.0), -camera.position), model};
+  } else {
+    CameraMatrices m = matrices_of(camera, double{kWidth} / kHeight);
+    if (kind == 2)
+      m.projection = orthographic_projection(-2 * distance, distance, -distance, distance, 0.01 * distance,
+                                             100 * distance);
+    if (kind == 3) m = {glm::dmat4(1.0), m.projection * m.view};
+    c.scene.matrices = m;
+    c.matrices = {viewport(), m.projection, m.view, model};
+  }
+  return c;
+}
+
+TEST(FinePositions, AreWithinTheContractsBound) {
+  Random random(71);
+  Frontend frontend;
+  for (int kind = 0; kind < 4; ++kind) {
+    int vertices = 0, drawn = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+      const double distance = std::ldexp(1.0, static_cast<int>(random.below(20)) - 10);
+      const double away = std::ldexp(distance, static_cast<int>(random.below(24)));
+      const double size = std::ldexp(distance, -static_cast<int>(random.below(8)));
+      const Case c = make_case(random, kind, away, distance, size);
+      const ScreenTransform to_screen = c.to_screen();
+      const auto triangles = frontend.run(
+          c.scene, {.width = kWidth, .height = kHeight, .cull = Cull::none, .subpixel_bits = 15});
+      const bool is_drawn = frontend.stats().clipped == 0 && !triangles.empty();
+      for (int k = 0; k < 3; ++k) {
+        const glm::vec3 position = c.scene.meshes[0].positions[static_cast<std::size_t>(k)];
+        const Homogeneous v = c.exact(position);
+        if (v[3] <= 0) continue;
+        const mpq_class x = v[0] / v[3], y = v[1] / v[3];
+        if (abs(x) > kGuardPx || abs(y) > kGuardPx) continue;
+        const double reach = glm::distance(glm::dvec3(position), to_screen.origin);
+        if (glm::length(to_screen.origin) > 0x1p24 * reach) continue;
+        const double bound = bound_px(to_screen, reach, v[3].get_d());
+        ASSERT_LT(kind < 3 ? bound : 0.0, 0x1p-17);
+        const ClipVertex found = to_screen(position);
+        const double inverse_w = 1.0 / found.w;
+        ASSERT_LT(std::abs(ratio(mpq_class(found.x * inverse_w) - x, 1)), bound) << kind << ", " << trial;
+        ASSERT_LT(std::abs(ratio(mpq_class(found.y * inverse_w) - y, 1)), bound) << kind << ", " << trial;
+        ++vertices;
+        if (!is_drawn) continue;
+        const double half_step = 0x1p-16;
+        ASSERT_LE(std::abs(ratio(mpq_class(triangles[0].x_q15[k]) * 0x1p-15 - x, 1)), half_step + bound)
+            << kind;
+        ASSERT_LE(std::abs(ratio(mpq_class(triangles[0].y_q15[k]) * 0x1p-15 - y, 1)), half_step + bound)
+            << kind;
+        ++drawn;
+      }
+    }
+    EXPECT_GT(vertices, 4000) << kind;
+    EXPECT_GT(drawn, 1000) << kind;
+  }
+}
+
+// The distance, in px, of a point on the grid from the line through two vertices; infinite if they give none.
+double distance_px(std::int32_t x_q15, std::int32_t y_q15, const Homogeneous& a, const Homogeneous& b) {
+  const mpq_class u = a[1] * b[3] - a[3] * b[1], v = a[3] * b[0] - a[0] * b[3], w = a[0] * b[1] - a[1] * b[0];
+  const mpq_class at = (u * x_q15 + v * y_q15) / (1 << contract::kFineBits) + w;
+  const mpq_class largest = std::max(mpq_class(abs(u)), mpq_class(abs(v)));
+  if (largest == 0) return std::numeric_limits<double>::infinity();
+  return std::abs(ratio(at, largest)) / std::hypot(ratio(u, largest), ratio(v, largest));
+}
+
+// New vertices lie on their edges, or on the guard band's border.
+TEST(FinePositions, OfNewVerticesLieOnTheirEdges) {
+  Random random(72);
+  Frontend frontend;
+  for (int kind = 0; kind < 4; ++kind) {
+    int on_edges = 0, on_border = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+      const Case c = make_case(random, kind, 1.0, 1.0, std::ldexp(1.0, static_cast<int>(random.below(9))));
+      const auto& positions = c.scene.meshes[0].positions;
+      const Homogeneous corners[] = {c.exact(positions[0]), c.exact(positions[1]), c.exact(positions[2])};
+      const auto triangles = frontend.run(
+          c.scene, {.width = kWidth, .height = kHeight, .cull = Cull::none, .subpixel_bits = 15});
+      if (frontend.stats().clipped == 0) continue;
+      for (const ScreenTriangle& t : triangles)
+        for (int k = 0; k < 3; ++k) {
+          if (std::max(std::abs(t.x_q15[k]), std::abs(t.y_q15[k])) == contract::kGuard_q15) {
+            ++on_border;
+            continue;
+          }
+          double least = std::numeric_limits<double>::infinity();
+          for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 0}})
+            least = std::min(least, distance_px(t.x_q15[k], t.y_q15[k], corners[i], corners[j]));
+          ASSERT_LT(least, std::hypot(0x1p-16, 0x1p-16) + 0x1p-17) << kind << ", " << trial;
+          ++on_edges;
+        }
+    }
+    EXPECT_GT(on_edges, 1000) << kind;
+    EXPECT_GT(on_border, 100) << kind;
+  }
+}
+
+// With 8 subpixel bits, which floats transform.
+TEST(Positions, OfACameraAreWithinTheContractsBoundHoweverFarTheOriginIs) {
+  Random random(61);
+  Frontend frontend;
+  int vertices = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const double distance = std::ldexp(1.0, static_cast<int>(random.below(20)) - 10);
+    const double away = std::ldexp(distance, static_cast<int>(random.below(24)));
+    const Case c = make_case(random, 0, away, distance, 0.3 * distance);
+    frontend.run(c.scene, {.width = kWidth, .height = kHeight, .cull = Cull::none, .keep_unsnapped = true});
+    if (frontend.stats().clipped != 0 || frontend.unsnapped().empty()) continue;
+    const double focal = kHeight / 2.0 / std::tan(double{c.scene.camera.fov_y} / 2);
+    for (int k = 0; k < 3; ++k) {
+      const glm::vec3 position = c.scene.meshes[0].positions[static_cast<std::size_t>(k)];
+      const Homogeneous v = c.exact(position);
+      const mpq_class x = v[0] / v[3], y = v[1] / v[3];
+      if (x < 0 || x > kWidth || y < 0 || y > kHeight) continue;
+      const Homogeneous from_camera = c.matrices[1] * (c.matrices[2] * as_homogeneous(position));
+      const double d = std::hypot(from_camera[0].get_d(), from_camera[1].get_d(), from_camera[2].get_d());
+      const double bound = contract::kPositionError * (focal + 2 * kWidth) * d / v[3].get_d();
+      const UnsnappedTriangle& t = frontend.unsnapped()[0];
+      ASSERT_LT(std::abs(ratio(mpq_class(double{t.x_px[k]}) - x, 1)), bound) << trial;
+      ASSERT_LT(std::abs(ratio(mpq_class(double{t.y_px[k]}) - y, 1)), bound) << trial;
+      ++vertices;
+    }
+  }
+  EXPECT_GT(vertices, 2000);
 }
 
 float spread(Random& random, float reach) {
   return random.uniform(-reach, reach);
-}
-
-// A triangle about `distance` before a camera that is `away` from the origin: in the mesh, or by the
-// instance.
-Scene triangle_far_away(Random& random, double away, double distance, bool in_mesh) {
-  Scene scene;
-  Camera& camera = scene.camera;
-  camera.yaw = spread(random, 3.0f), camera.pitch = spread(random, 1.5f), camera.fov_y = 0.785398163f;
-  camera.near_z = static_cast<float>(distance / 100), camera.far_z = static_cast<float>(distance * 100);
-  camera.position = away * glm::dvec3(spread(random, 1), spread(random, 1), spread(random, 1));
-  const glm::dvec3 forward(-std::sin(camera.yaw) * std::cos(camera.pitch), std::sin(camera.pitch),
-                           -std::cos(camera.yaw) * std::cos(camera.pitch));
-  const glm::dvec3 base = in_mesh ? glm::dvec3(0.0) : camera.position;
-  Mesh& mesh = scene.meshes.emplace_back();
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 aside(spread(random, 0.3f), spread(random, 0.3f), spread(random, 0.3f));
-    mesh.positions.emplace_back(camera.position - base + distance * (forward + aside));
-  }
-  mesh.triangles = {{0, 1, 2}};
-  mesh.colours = {0};
-  scene.instances.push_back({.translation = base});
-  return scene;
-}
-
-TEST(Positions, AreWithinTheContractsBoundHoweverFarTheOriginIs) {
-  Random random(61);
-  Frontend frontend;
-  int vertices = 0;
-  for (int trial = 0; trial < 20'000; ++trial) {
-    const double distance = std::ldexp(1.0, static_cast<int>(random.below(20)) - 10);
-    const double away = trial % 4 == 0 ? 0.0 : std::ldexp(distance, static_cast<int>(random.below(24)));
-    const Scene scene = triangle_far_away(random, away, distance, trial % 2 == 0);
-    const Mesh& mesh = scene.meshes[0];
-    const auto triangles =
-        frontend.run(scene, {.width = kWidth, .height = kHeight, .cull = Cull::none, .keep_unsnapped = true});
-    if (frontend.stats().clipped != 0 || triangles.empty()) continue;
-    const double focal = kHeight / 2.0 / std::tan(double{scene.camera.fov_y} / 2);
-    for (int k = 0; k < 3; ++k) {
-      const glm::vec3 p = mesh.positions[static_cast<std::size_t>(k)];
-      const Exact exact = seen(scene.camera, scene.instances[0], p);
-      if (exact.x < 0 || exact.x > kWidth || exact.y < 0 || exact.y > kHeight) continue;
-      const Exact v = Exact(p) + (Exact(scene.instances[0].translation) - Exact(scene.camera.position));
-      const double bound =
-          contract::kPositionError * (focal + 2 * kWidth) * static_cast<double>(glm::length(v) / exact.z);
-      ASSERT_NEAR(frontend.unsnapped()[0].x_px[k], static_cast<double>(exact.x), bound) << trial;
-      ASSERT_NEAR(frontend.unsnapped()[0].y_px[k], static_cast<double>(exact.y), bound) << trial;
-      ++vertices;
-    }
-  }
-  EXPECT_GT(vertices, 20'000);
 }
 
 // A floor below the camera whose corners are up to 2^30 times farther away than what is seen of it. Of a new
@@ -128,9 +277,10 @@ TEST(Positions, ClippedTrianglesKeepTheCornersTheyShare) {
     Camera& camera = scene.camera;
     camera.position = {spread(random, 3), spread(random, 3), spread(random, 3)};
     camera.yaw = spread(random, 3), camera.pitch = spread(random, 1.5f), camera.near_z = 0.5f;
-    const glm::dvec3 right(std::cos(camera.yaw), 0, -std::sin(camera.yaw));
-    const glm::dvec3 forward(-std::sin(camera.yaw) * std::cos(camera.pitch), std::sin(camera.pitch),
-                             -std::cos(camera.yaw) * std::cos(camera.pitch));
+    const double yaw{camera.yaw}, pitch{camera.pitch};
+    const glm::dvec3 right(std::cos(yaw), 0, -std::sin(yaw));
+    const glm::dvec3 forward(-std::sin(yaw) * std::cos(pitch), std::sin(pitch),
+                             -std::cos(yaw) * std::cos(pitch));
     const auto point = [&](double w) {
       const double x{spread(random, 0.3f)}, y{spread(random, 0.3f)};
       return glm::vec3(camera.position + w * (forward + x * right + y * glm::cross(right, forward)));
@@ -147,7 +297,7 @@ TEST(Positions, ClippedTrianglesKeepTheCornersTheyShare) {
                                                 .keep_unsnapped = true});
     if (frontend.stats().clipped != 1) continue;
     ++pairs;
-    before_near += seen(camera, scene.instances[0], a).z < camera.near_z;
+    before_near += glm::dot(glm::dvec3(a) - camera.position, forward) < double{camera.near_z};
     const ScreenTriangle& whole = triangles[0];
     for (int k = 0; k < 2; ++k)
       ASSERT_TRUE(std::any_of(triangles.begin() + 1, triangles.end(),
@@ -162,51 +312,6 @@ TEST(Positions, ClippedTrianglesKeepTheCornersTheyShare) {
   }
   EXPECT_GT(pairs, 5000);
   EXPECT_GT(before_near, 50);
-}
-
-// Doubles hold the moved positions exactly.
-TEST(Positions, MovingCameraAndInstancesChangesNoBit) {
-  for (const SceneInfo& info : builtin_scenes()) {
-    if (info.stream) continue;
-    Scene scene = std::get<Scene>(info.make({}));
-    const auto to_grid = [](glm::dvec3& v) { v = glm::round(v * 0x1p20) * 0x1p-20; };
-    to_grid(scene.camera.position);
-    for (Instance& instance : scene.instances) to_grid(instance.translation);
-    Scene moved = scene;
-    const glm::dvec3 by(0x1p30, -0x1p28, 0x1p29 + 1);
-    moved.camera.position += by;
-    for (Instance& instance : moved.instances) instance.translation += by;
-    Frontend here, there;
-    const FrontendOptions options{.width = 320, .height = 180};
-    const auto a = here.run(scene, options), b = there.run(moved, options);
-    EXPECT_EQ(here.stats(), there.stats()) << info.name;
-    testing::expect_same_triangles(a, b, std::string(info.name));
-  }
-}
-
-// The longest side is a millionth of the distance from the origin, as in survey coordinates.
-TEST(Positions, FitAndFrameCameraKeepWhatIsFarFromTheOrigin) {
-  Scene near = std::get<Scene>(find_scene("torus-knot").make({}));
-  for (glm::vec3& p : near.meshes[0].positions) p = glm::round(p * 8.0f);  // floats hold them when moved
-  Scene far = near;
-  for (glm::vec3& p : far.meshes[0].positions) p += glm::vec3(412'348, 0, -5'572'096);
-  for (const bool fitted : {false, true}) {
-    for (Scene* scene : {&near, &far}) {
-      if (fitted) fit(*scene);
-      frame_camera(*scene);
-    }
-    Frontend here, there;
-    const FrontendOptions options{.width = 640, .height = 480, .cull = Cull::none};
-    const auto a = here.run(near, options), b = there.run(far, options);
-    EXPECT_EQ(there.stats().outside + there.stats().whole_mesh, 0u);
-    ASSERT_EQ(a.size(), b.size()) << fitted;
-    std::size_t moved = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (int k = 0; k < 3; ++k)
-        moved +=
-            std::abs(a[i].x_q15[k] - b[i].x_q15[k]) > 128 || std::abs(a[i].y_q15[k] - b[i].y_q15[k]) > 128;
-    EXPECT_EQ(moved, 0u) << fitted;
-  }
 }
 
 TEST(Positions, ACameraAtAnyFiniteDistanceSeesNothingBeyondItsFarPlane) {
