@@ -12,7 +12,6 @@
 
 #include "bench/program/flags.h"
 #include "bench/program/reporter.h"
-#include "bench/workloads/memory.h"
 #include "bench/workloads/stage.h"
 #include "core/parallel.h"
 #include "files/atomic_file.h"
@@ -36,12 +35,6 @@ constexpr double kRepetition_s = 0.012;
 
 // The rounds that time a row. Stopping as soon as a pair is settled would find differences that do not exist.
 constexpr int kRounds = 9, kManyRounds = 36;
-
-// A backend's whole frames.
-bool measures_memory(const Row& row) {
-  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
-         row.once_s < kTooSlowToDrawTwice_s;
-}
 
 // Passes Google Benchmark our defaults first, so that the user's flags override them.
 void initialize_benchmark(const Flags& flags) {
@@ -122,7 +115,6 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
       rows[i].once_s = rows[i - 1].once_s;
     else
       stage.compare(rows[i]);
-    if (measures_memory(rows[i])) rows[i].peak_bytes = peak_bytes_of_first_frame(rows[i]);
     if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
   }
 }
@@ -168,7 +160,6 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   counters["height"] = workload.height();
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
-  if (row.peak_bytes) counters["peak_bytes"] = *row.peak_bytes;
   if (row.wrong_px) counters["wrong_px"] = static_cast<double>(*row.wrong_px);
   if (row.timed == Timed::frontend) return;
   const auto covered_px = static_cast<double>(workload.covered_px());
