@@ -197,15 +197,8 @@ PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> thei
     for (int x = 0; x < ours.width(); ++x) {
       const std::uint32_t mine = ours.payload_row(y)[x], other = row[static_cast<std::size_t>(x)];
       if (mine == other) continue;
-      if (mine == kNoTriangle || other == kNoTriangle) {
-        ++result.coverage;
-      } else if (judge.is_depth_tie(mine, other, x, y)) {
-        ++result.depth_ties;
-        continue;
-      } else {
-        ++result.other_triangles;
-      }
-      if (result.first_x < 0) result.first_x = x, result.first_y = y;
+      ++result.different;
+      ++(judge.is_depth_tie(mine, other, x, y) ? result.tie : result.wrong);
     }
   }
   return result;
@@ -232,15 +225,15 @@ Framebuffer picture_of_ids(const Workload& workload, std::span<const ScreenTrian
 
 }  // namespace
 
-PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
-                                 int subpixel_bits) {
+PeerJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
+                             int subpixel_bits) {
   FrontendOptions options = workload.frontend_options();
   options.subpixel_bits = std::max(options.subpixel_bits, subpixel_bits);
   const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload, options));
   const auto mask = lab::portable_pixels(
       lab::portable_triangles(workload.drawable(), options), ours.width(), ours.height(),
       {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
-  PortableJudgement result;
+  PeerJudgement result;
   std::size_t i = 0;
   for (int y = 0; y < ours.height(); ++y)
     for (int x = 0; x < ours.width(); ++x, ++i) {
@@ -270,14 +263,11 @@ void PeerStage::compare(Row& row) {
 
   if (row.peer->exact && bits == peer_bits) {
     const PeerJudgement judgement = judge(ours, their_ids, triangles);
-    row.depth_ties = judgement.depth_ties;
-    if (judgement.wrong() != 0)
-      row.error = fmt::format(
-          "{} pixels are drawn in only one of the two pictures, {} show another triangle, the first at ({}, "
-          "{})",
-          judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
+    row.depth_ties = judgement.tie;
+    if (judgement.wrong != 0)
+      row.error = fmt::format("{} pixels show another triangle or none", judgement.wrong);
   } else {
-    const PortableJudgement judgement = judge_portable(workload, their_ids, peer_bits);
+    const PeerJudgement judgement = judge_portable(workload, their_ids, peer_bits);
     row.wrong_px = judgement.different;
     if (judgement.wrong != 0)
       row.error = fmt::format("{} pixels show another triangle although they are portable", judgement.wrong);
