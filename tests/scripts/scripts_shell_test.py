@@ -190,13 +190,6 @@ class ShellTest(FolderTest):
             self.assertRegex(lines[1], r"apt-get install --no-install-recommends ninja-build$")
             self.assertEqual(lines[2], "apt-get said:")
 
-    def test_steps_tell_how_long_they_took_last_time(self):
-        commands = "mkdir -p $build; step Slow 150; SECONDS=$((SECONDS + {})); step 'Not known'; end_step"
-        first, then, again = (self.library(commands.format(seconds)).stdout for seconds in (95, 10, 10))
-        self.assertRegex(first, r"^\[1, \d s\] Slow \(expected: 2 min 30 s\)\n\[2, 9\d s\] Not known\n$")
-        self.assertRegex(then, r"Slow \(took 1 min 3\d s last time\)\n.*Not known \(took \d s last time\)\n$")
-        self.assertRegex(again, r"Slow \(took 1\d s last time\)")
-
     def test_a_build_prints_warnings_and_its_last_line(self):
         for environment in ({}, {"TERM": "dumb"}):
             result = self.library("build all", **environment)
