@@ -45,6 +45,16 @@ bool is_timed(const lab::LabScene& scene) {
          std::find(std::begin(kTimed), std::end(kTimed), scene.name) != std::end(kTimed);
 }
 
+constexpr std::string_view kQuickScenes[] = {"cubes", "torus-knot", "large", "grid4"};
+
+// Of the scenes of a quick run.
+bool in_quick_run(const Row& row) {
+  if (is_choice(row)) return true;
+  if (is_cell(row)) return row.execution.threads == tools::default_threads();
+  const bool plain = row.name.find(':') == row.name.rfind(':');  // threads:N alone
+  return plain && row.timed != Timed::raster;
+}
+
 // Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
 // of a first attempt.
 tools::Source area_source(const SuiteOptions& options, double area_px) {
@@ -216,20 +226,6 @@ std::string name_in_rows(const std::string& name_or_path) {
   return name;
 }
 
-bool in_quick_run(const Row& row) {
-  constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "grid4"};
-  if (row.prepare || is_choice(row)) return is_choice(row);
-  const std::string_view name = row.name;
-  const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
-  const std::string_view scene = name.substr(begin, end - begin);
-  const bool built_in = std::any_of(builtin_scenes().begin(), builtin_scenes().end(),
-                                    [&](const SceneInfo& info) { return info.name == scene; });
-  const bool plain_frame = row.timed != Timed::raster && name.substr(end).starts_with("/threads:");
-  return (is_cell(row) ? row.execution.threads == tools::default_threads() : plain_frame) &&
-         scene.find(':') == std::string_view::npos &&
-         (!built_in || std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes));
-}
-
 std::vector<Cell> cells() {
   std::vector<Cell> all;
   for (const std::string traversal : {"bands", "tiles"})
@@ -272,6 +268,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
 
   for (const auto& scene : builtin_scenes()) {
     const std::string name(scene.name);
+    if (options.quick && std::ranges::find(kQuickScenes, name) == std::end(kQuickScenes)) continue;
     taken.emplace(name, name);
     const auto workload = suite.scene_workload(name, options.width, options.height);
     suite.add_scene(workload, name);

@@ -9,6 +9,7 @@
 
 #include "edgewise/contract.h"
 #include "frontend/view.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/coverage/cracks.h"
 #include "lab/portable/portable.h"
 
@@ -191,15 +192,13 @@ double float_plane_error(const ScreenTriangle& t, int width, int height) {
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
                     std::span<const ScreenTriangle> triangles) {
   const Judge judge(ours, triangles);
+  const auto mine = lab::payloads_of(ours);
   PeerJudgement result;
-  for (int y = 0; y < ours.height(); ++y) {
-    const auto row = theirs.subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(ours.width()));
-    for (int x = 0; x < ours.width(); ++x) {
-      const std::uint32_t mine = ours.payload_row(y)[x], other = row[static_cast<std::size_t>(x)];
-      if (mine == other) continue;
-      ++result.different;
-      ++(judge.is_depth_tie(mine, other, x, y) ? result.tie : result.wrong);
-    }
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    if (mine[i] == theirs[i]) continue;
+    const int pixel = static_cast<int>(i), x = pixel % ours.width(), y = pixel / ours.width();
+    ++result.different;
+    ++(judge.is_depth_tie(mine[i], theirs[i], x, y) ? result.tie : result.wrong);
   }
   return result;
 }
@@ -209,11 +208,10 @@ namespace {
 // The pixels that show the same triangle in both pictures, but another colour.
 std::uint64_t differing_colours(const Framebuffer& ids, std::span<const std::uint32_t> their_ids,
                                 const Framebuffer& colours, std::span<const std::uint32_t> their_colours) {
+  const auto our_ids = lab::payloads_of(ids), our_colours = lab::payloads_of(colours);
   std::uint64_t count = 0;
-  std::size_t i = 0;
-  for (int y = 0; y < ids.height(); ++y)
-    for (int x = 0; x < ids.width(); ++x, ++i)
-      count += ids.payload_row(y)[x] == their_ids[i] && colours.payload_row(y)[x] != their_colours[i];
+  for (std::size_t i = 0; i < our_ids.size(); ++i)
+    count += our_ids[i] == their_ids[i] && our_colours[i] != their_colours[i];
   return count;
 }
 
@@ -233,15 +231,14 @@ PeerJudgement judge_portable(const Workload& workload, std::span<const std::uint
   const auto mask = lab::portable_pixels(
       lab::portable_triangles(workload.drawable(), options), ours.width(), ours.height(),
       {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
+  const auto our_ids = lab::payloads_of(ours);
   PeerJudgement result;
-  std::size_t i = 0;
-  for (int y = 0; y < ours.height(); ++y)
-    for (int x = 0; x < ours.width(); ++x, ++i) {
-      if (theirs[i] == ours.payload_row(y)[x]) continue;
-      ++result.different;
-      result.wrong += mask.reasons[i] == lab::Unstable::no;
-      result.tie += mask.reasons[i] == lab::Unstable::tie;
-    }
+  for (std::size_t i = 0; i < our_ids.size(); ++i) {
+    if (theirs[i] == our_ids[i]) continue;
+    ++result.different;
+    result.wrong += mask.reasons[i] == lab::Unstable::no;
+    result.tie += mask.reasons[i] == lab::Unstable::tie;
+  }
   return result;
 }
 

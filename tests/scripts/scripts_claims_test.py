@@ -23,7 +23,7 @@ class ClaimsTest(unittest.TestCase):
         self.assertEqual(found({}, {"a": good, "b": good}), [])
         self.assertIn("b: median", *found({}, {"a": good, "b": bad}))
         self.assertIn("timed on a, not on a, b", *found({}, {"a": good}))
-        self.assertIn("not name", *found({"of": ["a"], "named": "Zen 3"}, {"a": good}))
+        self.assertIn("not on one that it names", *found({"of": []}, {"a": good}))
         self.assertIn("not in README", *found({"says": "A second core doubles the speed."}, {"a": good, "b": good}))
 
     def test_a_sentence_without_a_claim_is_found(self):

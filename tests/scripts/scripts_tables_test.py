@@ -80,10 +80,6 @@ class PythonTest(FolderTest):
         self.assertTrue(lines[1].startswith("- Against moderngl 1, a draw into new arrays is 2.0× slower in 1 of 1 scene; "))
         self.assertEqual(lines[-1], "On 2 threads; `mine`, commit abc. A scene is a mesh at one size.")
 
-    def test_an_older_file_reuses_no_arrays(self):
-        data = json.dumps(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 1234))).replace("redraw", "unknown")
-        self.assertNotIn("reused", python_lines(self.read(json.loads(data))))
-
     def test_nothing_is_said_of_nothing_and_what_is_no_result_is_refused(self):
         self.assertEqual(python_lines(read_python(self.folder / "results/mine")), "No other Python package was measured here; `scripts/run --full --peers` does.")
         for data in ([], {"versions": {}, "pictures": [{}]}, compared_packages(vtk=(1.0, 0)), compared_packages(vtk=(1.0, 0), moderngl=(1.0, -1))):
