@@ -44,8 +44,8 @@ double float_plane_error(const ScreenTriangle& triangle, int width, int height);
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
                     std::span<const ScreenTriangle> triangles);
 
-// Wrong are the pixels that `portable` says are the same in every picture of a rasterizer with so many subpixel
-// bits and a float depth buffer; ties are in its mask for a tie alone. Ours has at least as many bits.
+// Wrong are the pixels that `portable` says are the same in every picture of a rasterizer with so many
+// subpixel bits and a float depth buffer. Ties are in its mask for a tie alone. Ours has no fewer bits.
 PeerJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
                              int subpixel_bits);
 

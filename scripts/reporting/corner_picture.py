@@ -6,9 +6,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from program import BadInput, Parser, main_guard
+from program import ROOT, BadInput, Parser, main_guard
 
-ROOT = Path(__file__).resolve().parents[2]
 METHODS = {"float_lt": "Inside if all edge values are > 0", "dda_rounded": "Scanlines, rounded to pixels", "tiled": "Edgewise"}
 SIZE, CORNER, SIDE = (46, 42), (22.5, 19.5), 16  # px
 FACES = (("left", "back", "right", "corner"), ("left", "corner", "bottom", "bottom_left"), ("corner", "right", "bottom_right", "bottom"))

@@ -75,14 +75,16 @@ def write_json(path, data):
         raise BadInput(f"cannot write {path}: {error.strerror}") from error
 
 
+def git(*arguments):
+    """Its output; None if it fails."""
+    done = subprocess.run(["git", "--no-optional-locks", "-C", ROOT, *arguments], capture_output=True, text=True, check=False)
+    return done.stdout.strip() if done.returncode == 0 else None
+
+
 def commit():
     """Of the sources; ends in -dirty if they have changed, as in src/support/machine.cpp."""
-    def git(*arguments):
-        return subprocess.run(["git", "--no-optional-locks", "-C", ROOT, *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                              text=True, check=False).stdout.strip()
-
     changes = git("status", "--porcelain", "--", ":/", ":(top,exclude)results")
-    return git("rev-parse", "--short=12", "HEAD") + ("-dirty" if changes else "") or "unknown"
+    return (git("rev-parse", "--short=12", "HEAD") or "unknown") + ("-dirty" if changes else "")
 
 
 def readmes(first):

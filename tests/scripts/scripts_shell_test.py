@@ -7,7 +7,7 @@ import shutil
 import sys
 import unittest
 
-from support import RESULTS, SCRIPTS, FolderTest, run
+from support import RESULTS, SCRIPTS, FolderTest
 
 APT_OFFLINE = """#!/bin/bash
 echo "W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  Temporary failure resolving 'deb.debian.org'" >&2
