@@ -21,7 +21,7 @@ enum class Timed {
 
 // Rows that take longer are not repeated: the comparison times them, by the faster of two draws.
 inline constexpr double kTooSlowToRepeat_s = 0.3;
-// Rows that take longer are drawn once. Frames whose backend alone takes longer are left out of the suite.
+// Rows that take longer are drawn once. Whole frames that do are left out of the suite.
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
 using TimedDraw = std::function<void()>;
