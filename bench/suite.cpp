@@ -24,12 +24,8 @@ constexpr double kShortFrame_s = 0.05;
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
-SceneRequest request(const SuiteOptions& options, int width, int height) {
-  SceneRequest r;
-  r.width = width;
-  r.height = height;
-  r.scale = options.scale;
-  return r;
+SceneRequest request(const SuiteOptions& options) {
+  return {.width = options.width, .height = options.height, .scale = options.scale};
 }
 
 // `count` triangles of `area_px` at random positions and depths.
@@ -41,8 +37,7 @@ tools::Source random_source(const SuiteOptions& options, std::size_t count, doub
 // Whether the suite times coverage methods on this scene.
 bool is_timed(const lab::LabScene& scene) {
   constexpr std::string_view kTimed[] = {"mesh_on_grid", "mesh", "torus-knot"};
-  return scene.family == lab::Family::coverage &&
-         std::find(std::begin(kTimed), std::end(kTimed), scene.name) != std::end(kTimed);
+  return scene.family == lab::Family::coverage && std::ranges::find(kTimed, scene.name) != std::end(kTimed);
 }
 
 constexpr std::string_view kQuickScenes[] = {"cubes", "torus-knot", "large", "grid4"};
@@ -114,7 +109,7 @@ class Suite {
   // coverage masks, which only the exact arithmetic allows.
   void add_engine_runs(const WorkloadPtr& workload, const std::string& scene) {
     constexpr std::string_view kScenes[] = {"large", "medium", "small", "grid64"};
-    if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
+    if (std::ranges::find(kScenes, scene) == std::end(kScenes)) return;
     using lab::EngineArithmetic;
     constexpr std::pair<std::string_view, EngineArithmetic> kArithmetics[] = {
         {"exact", EngineArithmetic::exact},
@@ -162,12 +157,6 @@ class Suite {
     return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
   }
 
-  WorkloadPtr scene_workload(const std::string& scene, int width, int height) const {
-    const SceneRequest wanted = request(options_, width, height);
-    return std::make_shared<Workload>(width, height, Cull::back,
-                                      [scene, wanted] { return tools::load_source(scene, wanted, false); });
-  }
-
   std::vector<Row> take() {
     for (const Row& row : rows_)
       if (row.workload) row.workload->set_subpixel_bits(options_.subpixel_bits);
@@ -188,7 +177,7 @@ class Suite {
   void add_frame(const WorkloadPtr& workload, const BackendInfo& backend, const std::string& what,
                  int threads) {
     add(workload, Timed::frame, backend, what, threads);
-    if (std::find(std::begin(kCompared), std::end(kCompared), backend.name) != std::end(kCompared))
+    if (std::ranges::find(kCompared, backend.name) != std::end(kCompared))
       rows_.back().many_rounds_up_to_s = kShortFrame_s;
   }
 
@@ -244,8 +233,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   std::map<std::string, std::string> taken;  // name in rows, source
   const auto add_named = [&](const std::string& scene) {
     // Load now, so that an invalid file fails before anything is timed.
-    const tools::Source source =
-        tools::load_source(scene, request(options, options.width, options.height), options.fit);
+    const tools::Source source = tools::load_source(scene, request(options), options.fit);
     const std::string name = name_in_rows(scene);
     if (const auto [other, is_new] = taken.emplace(name, scene); !is_new)
       throw std::invalid_argument(
@@ -270,7 +258,8 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     const std::string name(scene.name);
     if (options.quick && std::ranges::find(kQuickScenes, name) == std::end(kQuickScenes)) continue;
     taken.emplace(name, name);
-    const auto workload = suite.scene_workload(name, options.width, options.height);
+    const auto workload = suite.make_workload(
+        [name, wanted = request(options)] { return tools::load_source(name, wanted, false); });
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
     suite.add_engine_runs(workload, name);

@@ -149,32 +149,12 @@ bool covers(const Oriented& t, int x, int y) {
          make_edge(t, 2).at(x, y) >= 0;
 }
 
-class Judge {
- public:
-  Judge(const Framebuffer& ours, std::span<const ScreenTriangle> triangles)
-      : ours_(ours), triangles_(triangles) {}
-
-  bool is_depth_tie(std::uint32_t our_id, std::uint32_t their_id, int x, int y) const {
-    const ScreenTriangle *mine = find(our_id, x, y), *other = find(their_id, x, y);
-    if (mine == nullptr || other == nullptr) return false;
-    const double gap = 1.0 * make_depth(orient(*other)).at(x, y) - ours_.depth_row(y)[x];
-    return gap <= 2.0 * kDepthError + float_plane_error(*mine, ours_.width(), ours_.height()) +
-                      float_plane_error(*other, ours_.width(), ours_.height());
-  }
-
- private:
-  // The piece of triangle `id` that covers the pixel, or null.
-  const ScreenTriangle* find(std::uint32_t id, int x, int y) const {
-    const auto [begin, end] =
-        std::equal_range(triangles_.begin(), triangles_.end(), ScreenTriangle{{}, {}, {}, id},
-                         [](const auto& a, const auto& b) { return a.payload < b.payload; });
-    const auto found = std::find_if(begin, end, [&](const auto& t) { return covers(orient(t), x, y); });
-    return found == end ? nullptr : &*found;
-  }
-
-  const Framebuffer& ours_;
-  std::span<const ScreenTriangle> triangles_;
-};
+// The piece of triangle `id` that covers the pixel, or null.
+const ScreenTriangle* find(std::span<const ScreenTriangle> triangles, std::uint32_t id, int x, int y) {
+  const auto pieces = std::ranges::equal_range(triangles, id, {}, &ScreenTriangle::payload);
+  const auto found = std::ranges::find_if(pieces, [&](const auto& t) { return covers(orient(t), x, y); });
+  return found == pieces.end() ? nullptr : &*found;
+}
 
 }  // namespace
 
@@ -191,14 +171,20 @@ double float_plane_error(const ScreenTriangle& t, int width, int height) {
 
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
                     std::span<const ScreenTriangle> triangles) {
-  const Judge judge(ours, triangles);
+  const auto is_depth_tie = [&](std::uint32_t our_id, std::uint32_t their_id, int x, int y) {
+    const ScreenTriangle *mine = find(triangles, our_id, x, y), *other = find(triangles, their_id, x, y);
+    if (mine == nullptr || other == nullptr) return false;
+    const double gap = 1.0 * make_depth(orient(*other)).at(x, y) - ours.depth_row(y)[x];
+    return gap <= 2.0 * kDepthError + float_plane_error(*mine, ours.width(), ours.height()) +
+                      float_plane_error(*other, ours.width(), ours.height());
+  };
   const auto mine = lab::payloads_of(ours);
   PeerJudgement result;
   for (std::size_t i = 0; i < mine.size(); ++i) {
     if (mine[i] == theirs[i]) continue;
     const int pixel = static_cast<int>(i), x = pixel % ours.width(), y = pixel / ours.width();
     ++result.different;
-    ++(judge.is_depth_tie(mine[i], theirs[i], x, y) ? result.tie : result.wrong);
+    ++(is_depth_tie(mine[i], theirs[i], x, y) ? result.tie : result.wrong);
   }
   return result;
 }
