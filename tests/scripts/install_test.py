@@ -130,11 +130,14 @@ class Installed(unittest.TestCase):
             "-o", build / "square_c", *flags)
         self.use(build, environment)
 
-    def test_a_package_for_cmake(self):
-        self.use_package(self.prefix, "package")
+    def use_both(self, prefix, name, *options):
+        with self.subTest("CMake"):
+            self.use_package(prefix, f"{name}-package", *options)
+        with self.subTest("pkg-config"):
+            self.use_pkg_config(prefix, f"{name}-pkg-config")
 
-    def test_pkg_config(self):
-        self.use_pkg_config(self.prefix, "pkg-config")
+    def test_cmake_and_pkg_config(self):
+        self.use_both(self.prefix, "installed")
 
     def test_hashes_do_not_depend_on_the_users_flags(self):
         mesh = self.folder / "mesh.obj"
@@ -238,15 +241,13 @@ class Installed(unittest.TestCase):
             self.assertIn(f"Library soname: [lib{name}.so.0.3]",
                           run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
             self.check_exports(next(prefix.rglob(f"lib{name}.so")), whole=name == "edgewise")
-        self.use_package(prefix, "shared-package")
-        self.use_pkg_config(prefix, "shared-pkg-config")
+        self.use_both(prefix, "shared")
 
     @unittest.skipUnless(FULL, "compiles the library anew")
     def test_a_library_without_onetbb(self):
         prefix = self.built("serial", "-DEDGEWISE_THREADS=OFF", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
         self.assertNotIn("tbb", next(prefix.rglob("edgewise.pc")).read_text())
-        self.use_package(prefix, "serial-package", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
-        self.use_pkg_config(prefix, "serial-pkg-config")
+        self.use_both(prefix, "serial", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
 
 
 if __name__ == "__main__":
