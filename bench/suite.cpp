@@ -93,11 +93,12 @@ class Suite {
     }
   }
 
-  // Frames that differ in one factor at a time, on one thread and on all.
+  // Frames that differ in one factor at a time, on all threads. Those with vectors also on one.
   void add_cells(const WorkloadPtr& workload, const std::string& scene) {
     const std::set<int> thread_counts{1, tools::default_threads()};
     for (const Cell& cell : cells())
       for (const int threads : thread_counts) {
+        if (threads < tools::default_threads() && cell.target == SimdTarget::scalar) continue;
         add(workload, Timed::frame, *cell.backend, scene, threads, cell.target);
         rows_.back().name = fmt::format("cell/{}/{}/threads:{}", scene, cell.factors, threads);
         rows_.back().many_rounds_up_to_s = kTooSlowToRepeat_s;

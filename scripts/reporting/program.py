@@ -45,6 +45,17 @@ class Parser(argparse.ArgumentParser):
         sys.exit(2)
 
 
+def positive(kind):
+    """The type of an option."""
+    def number(text):
+        if not 0 < (value := kind(text)) < 1e6:
+            raise ValueError
+        return value
+
+    number.__name__ = f"positive {kind.__name__}"
+    return number
+
+
 def read_json(path):
     try:
         with open(path, encoding="utf-8") as file:
