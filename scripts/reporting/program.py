@@ -75,15 +75,23 @@ def parsed(path, parse, writer):
         raise BadInput(f"{path}: not what '{writer}' writes: {type(error).__name__} {error}") from None
 
 
-def write_json(path, data):
-    """Replaces the file in one step."""
-    part = path.with_name(path.name + ".part")
+def replaced(target, write):
+    """`write` makes another file, which then replaces `target` in one step."""
+    partial = target.with_name(f".{target.name}.partial")
     try:
-        part.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-        part.replace(path)
+        write(partial)
+        partial.replace(target)
     except OSError as error:
-        part.unlink(missing_ok=True)
-        raise BadInput(f"cannot write {path}: {error.strerror}") from error
+        partial.unlink(missing_ok=True)
+        raise BadInput(f"cannot write {target}: {error.filename}: {error.strerror}") from None
+
+
+def write_text(path, text):
+    replaced(path, lambda partial: partial.write_text(text, encoding="utf-8"))
+
+
+def write_json(path, data):
+    write_text(path, json.dumps(data, indent=1) + "\n")
 
 
 def git(*arguments):
