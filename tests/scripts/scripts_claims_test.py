@@ -1,11 +1,8 @@
 """claims.py: README's claims hold on the committed results, and a claim that does not hold is found."""
-import sys
 import unittest
 
-from support import ROOT, SCRIPTS
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-import claims  # noqa: E402
+from support import ROOT
+import claims
 
 
 class ClaimsTest(unittest.TestCase):

@@ -5,10 +5,8 @@ import sys
 import unittest
 
 from support import ROOT, SCRIPTS, FolderTest, run
-
-sys.path[:0] = [str(SCRIPTS / folder) for folder in ("reporting", "checks")]
-from program import BadInput  # noqa: E402
-from proofs import check_constants, constant_of, read_sections  # noqa: E402
+from program import BadInput
+from proofs import check_constants, constant_of, read_sections
 
 DEFINITIONS = "(define-const kFineBits Int 15) ; = kFineBits of src/edgewise/contract.h\n"
 CLAIM = ";; claim even: Twice a number\n;;   is even.\n(assert (not (= (mod (* 2 v) 2) 0)))\n"

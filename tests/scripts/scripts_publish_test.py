@@ -2,13 +2,10 @@
 import json
 import random
 import shutil
-import sys
 import unittest
 
 from support import RESULTS, ROOT, SCRIPTS, FolderTest, copied_results, google_benchmark, read, run
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-from bench_rows import order, read_bench  # noqa: E402
+from bench_rows import order, read_bench
 
 README = """<!-- results: results/mine -->
 ![](results/facts/pictures/torus-knot.png)

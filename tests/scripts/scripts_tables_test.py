@@ -1,17 +1,14 @@
 """The tables of results where the committed ones don't show a case; scripts_test.py has the READMEs."""
 import json
-import sys
 import unittest
 
-from support import SCRIPTS, FolderTest
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-from accuracy_rows import parse_accuracy  # noqa: E402
-from bench_rows import Bench, parse_name  # noqa: E402
-from bench_tables import peer_lines, speed_table  # noqa: E402
-from facts_tables import pipelines_table  # noqa: E402
-from program import BadInput  # noqa: E402
-from python_tables import python_lines, read_python  # noqa: E402
+from support import FolderTest
+from accuracy_rows import parse_accuracy
+from bench_rows import Bench, parse_name
+from bench_tables import peer_lines, speed_table
+from facts_tables import pipelines_table
+from program import BadInput
+from python_tables import python_lines, read_python
 
 NOISE = (0.99, 1.0, 1.01, 0.995, 1.005)
 

@@ -4,10 +4,8 @@ import sys
 import unittest
 
 from support import SCRIPTS, FolderTest, run
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-from platforms import TRIED, platforms_table  # noqa: E402
-from verification_summary import verification_table  # noqa: E402
+from platforms import TRIED, platforms_table
+from verification_summary import verification_table
 
 
 def gtest_case(suite, name, inside="", result="completed", **properties):
