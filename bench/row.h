@@ -21,7 +21,7 @@ enum class Timed {
 
 // Rows that take longer are not repeated: the comparison times them, by the faster of two draws.
 inline constexpr double kTooSlowToRepeat_s = 0.3;
-// Rows that take longer are drawn once. Frames whose backend alone takes longer are left out of the suite.
+// Rows that take longer are drawn once. Whole frames that do are left out of the suite.
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
 using TimedDraw = std::function<void()>;
@@ -41,7 +41,6 @@ struct Row {
   bool device_clock = false;  // a peer's frame by its device's clock
   Execution execution;
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
-  std::optional<double> peak_bytes;                 // of a first frame, if measured
   double many_rounds_up_to_s = 0.0;  // a shorter draw is repeated more often than other rows are
   double once_s = 0.0;               // duration of the compared draw
   std::uint64_t depth_ties = 0;      // peers: depth ties within tolerance, px
@@ -58,11 +57,6 @@ inline bool is_cell(const Row& row) {
 // A frame of the chart for choosing a method.
 inline bool is_choice(const Row& row) {
   return row.name.starts_with("choice/");
-}
-
-// Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target.
-inline bool is_plain(const Row& row) {
-  return !is_cell(row) && row.execution.target == SimdTarget::best;
 }
 
 }  // namespace edgewise::bench

@@ -24,12 +24,8 @@ constexpr double kShortFrame_s = 0.05;
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
-SceneRequest request(const SuiteOptions& options, int width, int height) {
-  SceneRequest r;
-  r.width = width;
-  r.height = height;
-  r.scale = options.scale;
-  return r;
+SceneRequest request(const SuiteOptions& options) {
+  return {.width = options.width, .height = options.height, .scale = options.scale};
 }
 
 // `count` triangles of `area_px` at random positions and depths.
@@ -41,8 +37,17 @@ tools::Source random_source(const SuiteOptions& options, std::size_t count, doub
 // Whether the suite times coverage methods on this scene.
 bool is_timed(const lab::LabScene& scene) {
   constexpr std::string_view kTimed[] = {"mesh_on_grid", "mesh", "torus-knot"};
-  return scene.family == lab::Family::coverage &&
-         std::find(std::begin(kTimed), std::end(kTimed), scene.name) != std::end(kTimed);
+  return scene.family == lab::Family::coverage && std::ranges::find(kTimed, scene.name) != std::end(kTimed);
+}
+
+constexpr std::string_view kQuickScenes[] = {"cubes", "torus-knot", "large", "grid4"};
+
+// Of the scenes of a quick run.
+bool in_quick_run(const Row& row) {
+  if (is_choice(row)) return true;
+  if (is_cell(row)) return row.execution.threads == tools::default_threads();
+  const bool plain = row.name.find(':') == row.name.rfind(':');  // threads:N alone
+  return plain && row.timed != Timed::raster;
 }
 
 // Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
@@ -88,11 +93,12 @@ class Suite {
     }
   }
 
-  // Frames that differ in one factor at a time, on one thread and on all.
+  // Frames that differ in one factor at a time, on all threads. Those with vectors also on one.
   void add_cells(const WorkloadPtr& workload, const std::string& scene) {
     const std::set<int> thread_counts{1, tools::default_threads()};
     for (const Cell& cell : cells())
       for (const int threads : thread_counts) {
+        if (threads < tools::default_threads() && cell.target == SimdTarget::scalar) continue;
         add(workload, Timed::frame, *cell.backend, scene, threads, cell.target);
         rows_.back().name = fmt::format("cell/{}/{}/threads:{}", scene, cell.factors, threads);
         rows_.back().many_rounds_up_to_s = kTooSlowToRepeat_s;
@@ -104,7 +110,7 @@ class Suite {
   // coverage masks, which only the exact arithmetic allows.
   void add_engine_runs(const WorkloadPtr& workload, const std::string& scene) {
     constexpr std::string_view kScenes[] = {"large", "medium", "small", "grid64"};
-    if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
+    if (std::ranges::find(kScenes, scene) == std::end(kScenes)) return;
     using lab::EngineArithmetic;
     constexpr std::pair<std::string_view, EngineArithmetic> kArithmetics[] = {
         {"exact", EngineArithmetic::exact},
@@ -152,12 +158,6 @@ class Suite {
     return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
   }
 
-  WorkloadPtr scene_workload(const std::string& scene, int width, int height) const {
-    const SceneRequest wanted = request(options_, width, height);
-    return std::make_shared<Workload>(width, height, Cull::back,
-                                      [scene, wanted] { return tools::load_source(scene, wanted, false); });
-  }
-
   std::vector<Row> take() {
     for (const Row& row : rows_)
       if (row.workload) row.workload->set_subpixel_bits(options_.subpixel_bits);
@@ -178,7 +178,7 @@ class Suite {
   void add_frame(const WorkloadPtr& workload, const BackendInfo& backend, const std::string& what,
                  int threads) {
     add(workload, Timed::frame, backend, what, threads);
-    if (std::find(std::begin(kCompared), std::end(kCompared), backend.name) != std::end(kCompared))
+    if (std::ranges::find(kCompared, backend.name) != std::end(kCompared))
       rows_.back().many_rounds_up_to_s = kShortFrame_s;
   }
 
@@ -216,20 +216,6 @@ std::string name_in_rows(const std::string& name_or_path) {
   return name;
 }
 
-bool in_quick_run(const Row& row) {
-  constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "grid4"};
-  if (row.prepare || is_choice(row)) return is_choice(row);
-  const std::string_view name = row.name;
-  const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
-  const std::string_view scene = name.substr(begin, end - begin);
-  const bool built_in = std::any_of(builtin_scenes().begin(), builtin_scenes().end(),
-                                    [&](const SceneInfo& info) { return info.name == scene; });
-  const bool plain_frame = row.timed != Timed::raster && name.substr(end).starts_with("/threads:");
-  return (is_cell(row) ? row.execution.threads == tools::default_threads() : plain_frame) &&
-         scene.find(':') == std::string_view::npos &&
-         (!built_in || std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes));
-}
-
 std::vector<Cell> cells() {
   std::vector<Cell> all;
   for (const std::string traversal : {"bands", "tiles"})
@@ -248,8 +234,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   std::map<std::string, std::string> taken;  // name in rows, source
   const auto add_named = [&](const std::string& scene) {
     // Load now, so that an invalid file fails before anything is timed.
-    const tools::Source source =
-        tools::load_source(scene, request(options, options.width, options.height), options.fit);
+    const tools::Source source = tools::load_source(scene, request(options), options.fit);
     const std::string name = name_in_rows(scene);
     if (const auto [other, is_new] = taken.emplace(name, scene); !is_new)
       throw std::invalid_argument(
@@ -272,8 +257,10 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
 
   for (const auto& scene : builtin_scenes()) {
     const std::string name(scene.name);
+    if (options.quick && std::ranges::find(kQuickScenes, name) == std::end(kQuickScenes)) continue;
     taken.emplace(name, name);
-    const auto workload = suite.scene_workload(name, options.width, options.height);
+    const auto workload = suite.make_workload(
+        [name, wanted = request(options)] { return tools::load_source(name, wanted, false); });
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
     suite.add_engine_runs(workload, name);

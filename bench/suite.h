@@ -14,7 +14,7 @@ namespace edgewise::bench {
 std::set<int> default_thread_counts();
 
 struct SuiteOptions {
-  bool quick = false;                               // see in_quick_run()
+  bool quick = false;                               // fewer scenes and rows
   double scale = 1.0;                               // of the scenes that can be scaled
   int width = 1920, height = 1080;                  // px
   int subpixel_bits = 8;                            // of scenes' frames
@@ -39,9 +39,6 @@ struct Cell {
 };
 // The twelve cells.
 std::vector<Cell> cells();
-
-// Whether a quick run times this row. Nothing else decides what it leaves out.
-bool in_quick_run(const Row& row);
 
 // Throws as load_source does for an invalid name or file, and std::invalid_argument for two sources whose
 // rows would have the same names.

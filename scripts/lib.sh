@@ -17,35 +17,11 @@ unknown() {
   die "unknown argument '$1'; --help lists all"
 }
 
-# step WHAT [SECONDS]: announces a step with its number and the seconds since the start. It also says how long the step
-# took last time with the same $build, or else that it is expected to take SECONDS, measured on two cores.
+# step WHAT [SECONDS]: announces a step with its number, the seconds since the start, and how long it takes at most on two cores.
 step_number=0
-step_name=
 step() {
-  local last=
-  end_step
-  step_number=$((step_number + 1))
-  step_name="$(basename "$0"): $1" step_start=$SECONDS step_file=$build/step-seconds
-  if [[ -f $step_file ]]; then last=$(awk -F'\t' -v name="$step_name" '$2 == name { print $1 }' "$step_file"); fi
-  if [[ -n $last ]]; then
-    last=" (took $(duration "$last") last time)"
-  elif [[ -n ${2:-} ]]; then
-    last=" (expected: $(duration "$2"))"
-  fi
-  printf '[%d, %d s] %s%s\n' "$step_number" "$SECONDS" "$1" "$last"
-}
-
-# Notes how long the step took. Call it before a subshell that has steps of its own, and after the last step.
-end_step() {
-  if [[ -n $step_name && -d ${step_file%/*} ]]; then
-    touch "$step_file"
-    {
-      awk -F'\t' -v name="$step_name" 'NF == 2 && $2 != name' "$step_file"
-      printf '%d\t%s\n' "$((SECONDS - step_start))" "$step_name"
-    } >"$step_file.part"
-    mv "$step_file.part" "$step_file"
-  fi
-  step_name=
+  step_number=$((step_number + 1)) step_start=$SECONDS
+  printf '[%d, %d s] %s%s\n' "$step_number" "$SECONDS" "$1" "${2:+ (up to $(duration "$2"))}"
 }
 
 # duration SECONDS: for people.

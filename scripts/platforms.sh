@@ -173,7 +173,6 @@ everywhere() {
   done
   wait
   set -e
-  end_step
   for platform; do grep -qs $'\tpassed\t' "$platforms/$platform.result" || status=1; done
   python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/platforms.json.part"
   mv "$platforms/platforms.json"{.part,}

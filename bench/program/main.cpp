@@ -12,7 +12,6 @@
 
 #include "bench/program/flags.h"
 #include "bench/program/reporter.h"
-#include "bench/workloads/memory.h"
 #include "bench/workloads/stage.h"
 #include "core/parallel.h"
 #include "files/atomic_file.h"
@@ -36,12 +35,6 @@ constexpr double kRepetition_s = 0.012;
 
 // The rounds that time a row. Stopping as soon as a pair is settled would find differences that do not exist.
 constexpr int kRounds = 9, kManyRounds = 36;
-
-// A backend's whole frames.
-bool measures_memory(const Row& row) {
-  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
-         row.once_s < kTooSlowToDrawTwice_s;
-}
 
 // Passes Google Benchmark our defaults first, so that the user's flags override them.
 void initialize_benchmark(const Flags& flags) {
@@ -95,35 +88,18 @@ void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
   std::erase_if(rows, [](const Row& row) { return row.peer != nullptr && row.peer_version.empty(); });
 }
 
-// Whether the previous row is the same backend's draw without the front end, and was already too slow.
-bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
-  if (i == 0 || rows[i].timed != Timed::frame) return false;
-  const Row &row = rows[i], &alone = rows[i - 1];
-  return alone.timed == Timed::raster && alone.workload == row.workload && alone.backend == row.backend &&
-         alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowToDrawTwice_s;
-}
-
-// Goes workload by workload, so that only one reference picture is in memory at a time. In the whole suite,
-// frames that leave_out_slow_frames() will drop are not drawn.
-void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
+// Goes workload by workload, so that only one reference picture is in memory at a time.
+void compare_all(std::vector<Row>& rows, Stage& stage) {
   tools::Progress progress;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
-    if (!rows[i].workload) {
-      stage.compare(rows[i]);
-      continue;
-    }
-    Workload& workload = *rows[i].workload;
+    const auto& workload = rows[i].workload;
     const auto needs_scene = [&](const Row& row) {
-      return row.workload.get() == &workload && row.timed != Timed::raster;
+      return row.workload == workload && row.timed != Timed::raster;
     };
-    workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
-    if (whole_suite && is_too_slow_alone(rows, i))
-      rows[i].once_s = rows[i - 1].once_s;
-    else
-      stage.compare(rows[i]);
-    if (measures_memory(rows[i])) rows[i].peak_bytes = peak_bytes_of_first_frame(rows[i]);
-    if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
+    if (workload) workload->prepare(std::ranges::any_of(rows, needs_scene));
+    stage.compare(rows[i]);
+    if (workload && (i + 1 == rows.size() || rows[i + 1].workload != workload)) workload->drop_reference();
   }
 }
 
@@ -168,7 +144,6 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   counters["height"] = workload.height();
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
-  if (row.peak_bytes) counters["peak_bytes"] = *row.peak_bytes;
   if (row.wrong_px) counters["wrong_px"] = static_cast<double>(*row.wrong_px);
   if (row.timed == Timed::frontend) return;
   const auto covered_px = static_cast<double>(workload.covered_px());
@@ -259,7 +234,7 @@ int run(int argc, char** argv) {
   leave_out_missing_peers(rows, flags.need_peers);
   if (rows.empty()) return 2;
   Stage stage;
-  compare_all(rows, stage, flags.suite.scenes.empty());
+  compare_all(rows, stage);
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
   add_context(flags, rows);
   std::vector<std::string> names;

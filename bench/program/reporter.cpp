@@ -12,25 +12,13 @@ namespace edgewise::bench {
 
 namespace {
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2.0;
-}
-
-// As Google Benchmark aggregates repetitions.
-benchmark::BenchmarkReporter::Run median_of(const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
-  std::vector<double> real_s, cpu_s;
-  for (const auto& run : runs) {
-    real_s.push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
-    cpu_s.push_back(run.cpu_accumulated_time / static_cast<double>(run.iterations));
-  }
-  auto result = runs.front();
-  result.run_type = benchmark::BenchmarkReporter::Run::RT_Aggregate;
-  result.aggregate_name = "median";
-  result.iterations = static_cast<benchmark::IterationCount>(runs.size());
-  result.real_accumulated_time = median(real_s) * static_cast<double>(runs.size());
-  result.cpu_accumulated_time = median(cpu_s) * static_cast<double>(runs.size());
-  return result;
+// The repetition of median time, of an even number the slower of the two in the middle.
+benchmark::BenchmarkReporter::Run median_of(std::vector<benchmark::BenchmarkReporter::Run> runs) {
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::ranges::nth_element(runs, middle, {}, [](const auto& run) { return run.GetAdjustedRealTime(); });
+  middle->run_type = benchmark::BenchmarkReporter::Run::RT_Aggregate;
+  middle->aggregate_name = "median";
+  return *middle;
 }
 
 }  // namespace

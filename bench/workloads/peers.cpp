@@ -9,6 +9,7 @@
 
 #include "edgewise/contract.h"
 #include "frontend/view.h"
+#include "lab/cases/backend_comparison.h"
 #include "lab/coverage/cracks.h"
 #include "lab/portable/portable.h"
 
@@ -148,32 +149,12 @@ bool covers(const Oriented& t, int x, int y) {
          make_edge(t, 2).at(x, y) >= 0;
 }
 
-class Judge {
- public:
-  Judge(const Framebuffer& ours, std::span<const ScreenTriangle> triangles)
-      : ours_(ours), triangles_(triangles) {}
-
-  bool is_depth_tie(std::uint32_t our_id, std::uint32_t their_id, int x, int y) const {
-    const ScreenTriangle *mine = find(our_id, x, y), *other = find(their_id, x, y);
-    if (mine == nullptr || other == nullptr) return false;
-    const double gap = 1.0 * make_depth(orient(*other)).at(x, y) - ours_.depth_row(y)[x];
-    return gap <= 2.0 * kDepthError + float_plane_error(*mine, ours_.width(), ours_.height()) +
-                      float_plane_error(*other, ours_.width(), ours_.height());
-  }
-
- private:
-  // The piece of triangle `id` that covers the pixel, or null.
-  const ScreenTriangle* find(std::uint32_t id, int x, int y) const {
-    const auto [begin, end] =
-        std::equal_range(triangles_.begin(), triangles_.end(), ScreenTriangle{{}, {}, {}, id},
-                         [](const auto& a, const auto& b) { return a.payload < b.payload; });
-    const auto found = std::find_if(begin, end, [&](const auto& t) { return covers(orient(t), x, y); });
-    return found == end ? nullptr : &*found;
-  }
-
-  const Framebuffer& ours_;
-  std::span<const ScreenTriangle> triangles_;
-};
+// The piece of triangle `id` that covers the pixel, or null.
+const ScreenTriangle* find(std::span<const ScreenTriangle> triangles, std::uint32_t id, int x, int y) {
+  const auto pieces = std::ranges::equal_range(triangles, id, {}, &ScreenTriangle::payload);
+  const auto found = std::ranges::find_if(pieces, [&](const auto& t) { return covers(orient(t), x, y); });
+  return found == pieces.end() ? nullptr : &*found;
+}
 
 }  // namespace
 
@@ -190,23 +171,20 @@ double float_plane_error(const ScreenTriangle& t, int width, int height) {
 
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
                     std::span<const ScreenTriangle> triangles) {
-  const Judge judge(ours, triangles);
+  const auto is_depth_tie = [&](std::uint32_t our_id, std::uint32_t their_id, int x, int y) {
+    const ScreenTriangle *mine = find(triangles, our_id, x, y), *other = find(triangles, their_id, x, y);
+    if (mine == nullptr || other == nullptr) return false;
+    const double gap = 1.0 * make_depth(orient(*other)).at(x, y) - ours.depth_row(y)[x];
+    return gap <= 2.0 * kDepthError + float_plane_error(*mine, ours.width(), ours.height()) +
+                      float_plane_error(*other, ours.width(), ours.height());
+  };
+  const auto mine = lab::payloads_of(ours);
   PeerJudgement result;
-  for (int y = 0; y < ours.height(); ++y) {
-    const auto row = theirs.subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(ours.width()));
-    for (int x = 0; x < ours.width(); ++x) {
-      const std::uint32_t mine = ours.payload_row(y)[x], other = row[static_cast<std::size_t>(x)];
-      if (mine == other) continue;
-      if (mine == kNoTriangle || other == kNoTriangle) {
-        ++result.coverage;
-      } else if (judge.is_depth_tie(mine, other, x, y)) {
-        ++result.depth_ties;
-        continue;
-      } else {
-        ++result.other_triangles;
-      }
-      if (result.first_x < 0) result.first_x = x, result.first_y = y;
-    }
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    if (mine[i] == theirs[i]) continue;
+    const int pixel = static_cast<int>(i), x = pixel % ours.width(), y = pixel / ours.width();
+    ++result.different;
+    ++(is_depth_tie(mine[i], theirs[i], x, y) ? result.tie : result.wrong);
   }
   return result;
 }
@@ -216,11 +194,10 @@ namespace {
 // The pixels that show the same triangle in both pictures, but another colour.
 std::uint64_t differing_colours(const Framebuffer& ids, std::span<const std::uint32_t> their_ids,
                                 const Framebuffer& colours, std::span<const std::uint32_t> their_colours) {
+  const auto our_ids = lab::payloads_of(ids), our_colours = lab::payloads_of(colours);
   std::uint64_t count = 0;
-  std::size_t i = 0;
-  for (int y = 0; y < ids.height(); ++y)
-    for (int x = 0; x < ids.width(); ++x, ++i)
-      count += ids.payload_row(y)[x] == their_ids[i] && colours.payload_row(y)[x] != their_colours[i];
+  for (std::size_t i = 0; i < our_ids.size(); ++i)
+    count += our_ids[i] == their_ids[i] && our_colours[i] != their_colours[i];
   return count;
 }
 
@@ -232,23 +209,22 @@ Framebuffer picture_of_ids(const Workload& workload, std::span<const ScreenTrian
 
 }  // namespace
 
-PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
-                                 int subpixel_bits) {
+PeerJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
+                             int subpixel_bits) {
   FrontendOptions options = workload.frontend_options();
   options.subpixel_bits = std::max(options.subpixel_bits, subpixel_bits);
   const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload, options));
   const auto mask = lab::portable_pixels(
       lab::portable_triangles(workload.drawable(), options), ours.width(), ours.height(),
       {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
-  PortableJudgement result;
-  std::size_t i = 0;
-  for (int y = 0; y < ours.height(); ++y)
-    for (int x = 0; x < ours.width(); ++x, ++i) {
-      if (theirs[i] == ours.payload_row(y)[x]) continue;
-      ++result.different;
-      result.wrong += mask.reasons[i] == lab::Unstable::no;
-      result.tie += mask.reasons[i] == lab::Unstable::tie;
-    }
+  const auto our_ids = lab::payloads_of(ours);
+  PeerJudgement result;
+  for (std::size_t i = 0; i < our_ids.size(); ++i) {
+    if (theirs[i] == our_ids[i]) continue;
+    ++result.different;
+    result.wrong += mask.reasons[i] == lab::Unstable::no;
+    result.tie += mask.reasons[i] == lab::Unstable::tie;
+  }
   return result;
 }
 
@@ -270,14 +246,11 @@ void PeerStage::compare(Row& row) {
 
   if (row.peer->exact && bits == peer_bits) {
     const PeerJudgement judgement = judge(ours, their_ids, triangles);
-    row.depth_ties = judgement.depth_ties;
-    if (judgement.wrong() != 0)
-      row.error = fmt::format(
-          "{} pixels are drawn in only one of the two pictures, {} show another triangle, the first at ({}, "
-          "{})",
-          judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
+    row.depth_ties = judgement.tie;
+    if (judgement.wrong != 0)
+      row.error = fmt::format("{} pixels show another triangle or none", judgement.wrong);
   } else {
-    const PortableJudgement judgement = judge_portable(workload, their_ids, peer_bits);
+    const PeerJudgement judgement = judge_portable(workload, their_ids, peer_bits);
     row.wrong_px = judgement.different;
     if (judgement.wrong != 0)
       row.error = fmt::format("{} pixels show another triangle although they are portable", judgement.wrong);

@@ -29,15 +29,10 @@ PeerScene peer_scene(const Workload& workload, PeerPayload payload, int subpixel
 // clipped triangle share its id.
 std::vector<ScreenTriangle> triangles_by_id(const Workload& workload);
 
-// How a peer's picture differs from ours. Both are drawn with triangle ids as payloads, over kNoTriangle.
+// In how many pixels a peer's picture differs from ours. Both are drawn with triangle ids as payloads, over
+// kNoTriangle. A tie is another triangle at a depth within tolerance.
 struct PeerJudgement {
-  // Numbers of pixels.
-  std::uint64_t coverage = 0;         // in exactly one of the pictures
-  std::uint64_t depth_ties = 0;       // another triangle, which covers the pixel at a depth within tolerance
-  std::uint64_t other_triangles = 0;  // another triangle, not within tolerance
-  int first_x = -1, first_y = -1;     // the first pixel in `coverage` or `other_triangles`
-
-  std::uint64_t wrong() const { return coverage + other_triangles; }
+  std::uint64_t different = 0, wrong = 0, tie = 0;
 };
 
 // The bound on a peer's depth error for a triangle, in contract depth units. The peer evaluates
@@ -49,14 +44,10 @@ double float_plane_error(const ScreenTriangle& triangle, int width, int height);
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
                     std::span<const ScreenTriangle> triangles);
 
-// The pixels in which a picture of triangle ids differs from ours, and those of them that `portable` says are
-// the same in every picture of a rasterizer with so many subpixel bits and a float depth buffer. Ours has at
-// least as many.
-struct PortableJudgement {
-  std::uint64_t different = 0, wrong = 0, tie = 0;  // tie: those in the mask for a tie alone
-};
-PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
-                                 int subpixel_bits);
+// Wrong are the pixels that `portable` says are the same in every picture of a rasterizer with so many
+// subpixel bits and a float depth buffer. Ties are in its mask for a tie alone. Ours has no fewer bits.
+PeerJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
+                             int subpixel_bits);
 
 class PeerStage {
  public:

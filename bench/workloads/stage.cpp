@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <numeric>
 
 #include "lab/cases/backend_comparison.h"
 #include "lab/engine/engine.h"
@@ -14,10 +15,9 @@ namespace edgewise::bench {
 namespace {
 
 std::uint64_t pixels_of_another_colour(const Framebuffer& a, const Framebuffer& b) {
-  std::uint64_t pixels = 0;
-  for (int y = 0; y < a.height(); ++y)
-    for (int x = 0; x < a.width(); ++x) pixels += a.payload_row(y)[x] != b.payload_row(y)[x];
-  return pixels;
+  const auto one = lab::payloads_of(a), other = lab::payloads_of(b);
+  return std::transform_reduce(one.begin(), one.end(), other.begin(), std::uint64_t{0}, std::plus<>(),
+                               std::not_equal_to<>());
 }
 
 }  // namespace

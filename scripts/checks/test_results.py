@@ -14,7 +14,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reporting"))
 from program import BadInput, main_guard  # noqa: E402
 
 WIDTH = 100
-FAILURES_LISTED = 20
 NAMES_LISTED = 4
 COUNTED = ("cases", "comparisons")  # properties that tests record
 PASSED, FAILED, SKIPPED = "passed", "failed", "skipped"
@@ -119,9 +118,7 @@ def main():
         runs["outside the tests"] = [Test("", f"exit status {options.status}; see above", FAILED)]
     tests = [test for run in runs.values() for test in run]
     failed = [f"Failed: {test.full_name} ({name})" for name, run in runs.items() for test in run if test.result == FAILED]
-    lines = [*skipped_lines([test for test in tests if test.result == SKIPPED]), *failed[:FAILURES_LISTED]]
-    if len(failed) > FAILURES_LISTED:
-        lines.append(f"and {len(failed) - FAILURES_LISTED} more failed; see above")
+    lines = [*skipped_lines([test for test in tests if test.result == SKIPPED]), *failed]
     for line in lines:
         print(textwrap.fill(line, WIDTH, subsequent_indent="  "))
     count = Counter(test.result for test in tests)

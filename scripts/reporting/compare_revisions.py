@@ -17,10 +17,9 @@ from statistics import geometric_mean
 
 import noise
 from bench_rows import read_bench
-from program import BadInput, write_json
+from program import ROOT, BadInput, git, write_json
 from tables import number, percent
 
-ROOT = Path(__file__).resolve().parents[2]
 BUILDS = ROOT / "build" / "compare"
 PROGRAM = "edgewise_bench"
 WORKING_TREE = "."
@@ -52,12 +51,6 @@ class Revision:
     @property
     def build(self):
         return self.folder / "build"
-
-
-def git(*arguments):
-    """Its output; None if it fails."""
-    done = subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True, check=False)
-    return done.stdout.strip() if done.returncode == 0 else None
 
 
 def revision(name):

@@ -2,13 +2,12 @@
 """Draws README's picture: the corner of a cube whose vertices lie on pixel centres, by three methods, wrong pixels tinted."""
 import struct
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from program import BadInput, Parser, main_guard
+from plot_style import plt
+from program import ROOT, Parser, main_guard
 
-ROOT = Path(__file__).resolve().parents[2]
 METHODS = {"float_lt": "Inside if all edge values are > 0", "dda_rounded": "Scanlines, rounded to pixels", "tiled": "Edgewise"}
 SIZE, CORNER, SIDE = (46, 42), (22.5, 19.5), 16  # px
 FACES = (("left", "back", "right", "corner"), ("left", "corner", "bottom", "bottom_left"), ("corner", "right", "bottom_right", "bottom"))
@@ -30,10 +29,6 @@ def main():
     parser = Parser(prog="corner_picture.py", description=__doc__, epilog="Needs build/edgewise. Exit status: 0 drawn, 2 bad input.")
     parser.add_argument("picture", type=Path, metavar="FILE.png")
     options = parser.parse_args()
-    try:
-        from plot_style import plt
-    except ModuleNotFoundError as error:
-        raise BadInput(f"{sys.executable} has no {error.name}; on Debian: apt-get install python3-matplotlib") from None
     figure, panels = plt.subplots(1, 3, figsize=(8.3, 2.72), layout="constrained")
     with tempfile.TemporaryDirectory() as folder:
         stream = Path(folder) / "corner.tri"

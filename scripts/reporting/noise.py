@@ -9,10 +9,8 @@ Guarantee: if neither side is faster, a test claims a difference in at most LEVE
 that are exchangeable, `paired_order` rounds that are independent of one another. Neither needs a normal distribution. `family`
 gives the same guarantee for several claims together.
 
-Some pairs are too small for the rank-sum test to reach LEVEL, for example three repetitions against three. They count as
-different only across a gap of GAP: the slowest repetition of one side, times GAP, is below the fastest of the other. No
-test without an assumption can settle them. The assumption is that noise seldom doubles a time, and a unit test checks it
-against the repetitions in results/.
+Pairs too small for the rank-sum test to reach LEVEL count as different only across a gap of GAP. This assumes that noise
+seldom doubles a time, which a unit test checks against the repetitions in results/.
 """
 import math
 import random

@@ -50,27 +50,14 @@ def place(points, sizes, bounds, line_points):
     placed = {}
 
     def cost(i, distance, box):
-        others = [other for j, other in placed.items() if j != i]
-        leaders = [p for j in placed if j != i for p in along(points[j], end_of(points[j], placed[j]))]
-        own = along(points[i], end_of(points[i], box))
-        return (distance + 4000 * (1 - area_shared(bounds, box) / (box.width * box.height))
-                + 300 * box.padded(5).count_contains(points)
-                + 10 * (box.padded(1).count_contains(line_points) if line_points else 0)
-                + sum(40 + 10 * area_shared(box.padded(2), other) for other in others if box.padded(2).overlaps(other))
-                + 60 * sum(other.count_contains(own) for other in others)
-                + 60 * (box.count_contains(leaders) if leaders else 0)
-                + 40 * sum(math.dist(p, q) < 5 for p in (*points[:i], *points[i + 1:], *leaders) for q in own))
+        crossed = [*points, *line_points, *(p for j in placed for p in along(points[j], end_of(points[j], placed[j])))]
+        leader = along(points[i], end_of(points[i], box))
+        return (distance + 9 * (box.width * box.height - area_shared(bounds, box)) + 40 * box.padded(2).count_contains(crossed)
+                + sum(40 + 10 * area_shared(box.padded(2), other) + 60 * other.count_contains(leader) for other in placed.values()
+                      if box.padded(2).overlaps(other) or other.count_contains(leader)))
 
-    crowded_first = sorted(range(len(points)), key=lambda i: (-sum(math.dist(points[i], p) < 60 for p in points), points[i]))
-    for _ in range(4):  # later rounds see all other labels
-        for i in crowded_first:
-            least = math.inf
-            for distance, box in candidates(points[i], *sizes[i]):
-                if distance >= least:  # the nearest come first
-                    break
-                if (found := cost(i, distance, box)) < least:
-                    least, best = found, box
-            placed[i] = best
+    for i in sorted(range(len(points)), key=lambda i: -sum(math.dist(points[i], p) < 60 for p in points)):  # crowded ones first
+        placed[i] = min(candidates(points[i], *sizes[i]), key=lambda found: cost(i, *found))[1]
     return [placed[i] for i in range(len(points))]
 
 

@@ -45,6 +45,17 @@ class Parser(argparse.ArgumentParser):
         sys.exit(2)
 
 
+def positive(kind):
+    """The type of an option."""
+    def number(text):
+        if not 0 < (value := kind(text)) < 1e6:
+            raise ValueError
+        return value
+
+    number.__name__ = f"positive {kind.__name__}"
+    return number
+
+
 def read_json(path):
     try:
         with open(path, encoding="utf-8") as file:
@@ -64,25 +75,35 @@ def parsed(path, parse, writer):
         raise BadInput(f"{path}: not what '{writer}' writes: {type(error).__name__} {error}") from None
 
 
-def write_json(path, data):
-    """Replaces the file in one step."""
-    part = path.with_name(path.name + ".part")
+def replaced(target, write):
+    """`write` makes another file, which then replaces `target` in one step."""
+    partial = target.with_name(f".{target.name}.partial")
     try:
-        part.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-        part.replace(path)
+        write(partial)
+        partial.replace(target)
     except OSError as error:
-        part.unlink(missing_ok=True)
-        raise BadInput(f"cannot write {path}: {error.strerror}") from error
+        partial.unlink(missing_ok=True)
+        raise BadInput(f"cannot write {target}: {error.filename}: {error.strerror}") from None
+
+
+def write_text(path, text):
+    replaced(path, lambda partial: partial.write_text(text, encoding="utf-8"))
+
+
+def write_json(path, data):
+    write_text(path, json.dumps(data, indent=1) + "\n")
+
+
+def git(*arguments):
+    """Its output; None if it fails."""
+    done = subprocess.run(["git", "--no-optional-locks", "-C", ROOT, *arguments], capture_output=True, text=True, check=False)
+    return done.stdout.strip() if done.returncode == 0 else None
 
 
 def commit():
     """Of the sources; ends in -dirty if they have changed, as in src/support/machine.cpp."""
-    def git(*arguments):
-        return subprocess.run(["git", "--no-optional-locks", "-C", ROOT, *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                              text=True, check=False).stdout.strip()
-
     changes = git("status", "--porcelain", "--", ":/", ":(top,exclude)results")
-    return git("rev-parse", "--short=12", "HEAD") + ("-dirty" if changes else "") or "unknown"
+    return (git("rev-parse", "--short=12", "HEAD") or "unknown") + ("-dirty" if changes else "")
 
 
 def readmes(first):

@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 import time
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from statistics import median
 
@@ -183,20 +184,6 @@ def start_xvfb():
         return ":" + display.readline().strip()
 
 
-def serve(pipe, name, threads):
-    """Does what the other process asks for, until it closes the pipe."""
-    os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:threads])
-    try:
-        drawer = DRAWERS[name](threads)
-        pipe.send(drawer.version)
-        while True:
-            pipe.send(drawn(drawer, *pipe.recv()))
-    except EOFError:
-        pass
-    except Exception as error:  # whatever a package throws
-        pipe.send(error)
-
-
 def drawn(drawer, mesh, view, calls=0, reuse=False):
     """The picture's ids and distances, or, of so many calls, the median of their milliseconds. With a mesh, it is loaded anew.
     reuse: draws into the arrays of the last call."""
@@ -213,26 +200,34 @@ def drawn(drawer, mesh, view, calls=0, reuse=False):
     return median(times) if calls else (ids & 0xFFFFFF, view.distance(drawer.depth01(depth)))
 
 
+here = None  # the drawer of a process that Drawer started
+
+
+def start(name, threads):
+    """Makes it, and returns its version."""
+    global here
+    os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:threads])
+    here = DRAWERS[name](threads)
+    return here.version
+
+
+def drawn_here(*request):
+    return drawn(here, *request)
+
+
 class Drawer:
     """A drawer in another process."""
 
     def __init__(self, name, threads):
-        context = multiprocessing.get_context("spawn")  # threads of this process are not copied
         self.name, self.threads = name, threads
-        self.pipe, theirs = context.Pipe()
-        context.Process(target=serve, args=(theirs, name, threads), daemon=True).start()
-        theirs.close()
-        self.version = self.answer()
+        self.process = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"))  # threads of this process are not copied
+        self.version = self.answer(start, name, threads)
 
-    def answer(self):
+    def answer(self, function, *arguments):
         try:
-            said = self.pipe.recv()
-        except EOFError:
-            raise RuntimeError(f"{self.name} ended") from None
-        if isinstance(said, Exception):
-            raise RuntimeError(f"{self.name}: {said}") from None
-        return said
+            return self.process.submit(function, *arguments).result()
+        except Exception as error:  # whatever a package throws
+            raise RuntimeError(f"{self.name}: {error}") from None
 
     def drawn(self, *request):
-        self.pipe.send(request)
-        return self.answer()
+        return self.answer(drawn_here, *request)

@@ -128,8 +128,7 @@ TEST(BenchSuite, TimesCellsAndEnginesThatDrawTheReference) {
         row.name.find(":float") != std::string::npos || row.name.find(":int32") != std::string::npos;
     EXPECT_TRUE(may_err || row.wrong_px.value_or(0) == 0) << row.name;
   }
-  EXPECT_EQ(compared_cells,
-            builtin_scenes().size() * cells().size() * (tools::default_threads() > 1 ? 2 : 1));
+  EXPECT_GE(compared_cells, builtin_scenes().size() * cells().size());
   EXPECT_GT(compared_engines, 6u);
 }
 

@@ -44,11 +44,6 @@ def configure(source, build, *options):
                f"-DCMAKE_CXX_COMPILER={cached('CMAKE_CXX_COMPILER')}", *options)
 
 
-def targets(build):
-    listed = run("cmake", "--build", build, "--target", "help")
-    return set(re.findall(r"^(?:\.\.\. )?([\w-]+)", listed, re.MULTILINE))
-
-
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -90,6 +85,14 @@ class Installed(unittest.TestCase):
         self.assertNotEqual(missing.returncode, 0)
         self.assertIn("mesh.obj", missing.stderr)
 
+    def built(self, name, *options):
+        """The prefix of the library alone, compiled anew and installed."""
+        build, prefix = self.folder / name, self.folder / f"{name}-prefix"
+        configure(ROOT, build, "-DEDGEWISE_LABORATORY=OFF", *options)
+        run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
+        run("cmake", "--install", build, "--prefix", prefix)
+        return prefix
+
     def use_package(self, prefix, name, *options):
         build = self.folder / name
         configure(CONSUMER, build, f"-DCMAKE_PREFIX_PATH={prefix}", *options)
@@ -127,11 +130,14 @@ class Installed(unittest.TestCase):
             "-o", build / "square_c", *flags)
         self.use(build, environment)
 
-    def test_a_package_for_cmake(self):
-        self.use_package(self.prefix, "package")
+    def use_both(self, prefix, name, *options):
+        with self.subTest("CMake"):
+            self.use_package(prefix, f"{name}-package", *options)
+        with self.subTest("pkg-config"):
+            self.use_pkg_config(prefix, f"{name}-pkg-config")
 
-    def test_pkg_config(self):
-        self.use_pkg_config(self.prefix, "pkg-config")
+    def test_cmake_and_pkg_config(self):
+        self.use_both(self.prefix, "installed")
 
     def test_hashes_do_not_depend_on_the_users_flags(self):
         mesh = self.folder / "mesh.obj"
@@ -154,38 +160,30 @@ class Installed(unittest.TestCase):
         for library in self.prefix.rglob("libedgewise*.a"):
             self.assertNotRegex(run("nm", "--defined-only", library), r" [VW] _ZNK?3glm")
 
-    def test_public_headers_are_installed_and_no_others(self):
+    def test_the_licence_and_public_headers_are_installed_and_no_others(self):
+        self.assertTrue((self.prefix / "share/doc/edgewise/LICENSE").read_text().startswith("MIT License"))
         headers = {path.name for path in self.prefix.rglob("*.h")}
         self.assertEqual(headers, {path.name for path in (ROOT / "src" / "edgewise").glob("*.h")})
         for path in self.prefix.rglob("*.h"):
             for included in re.findall(r'^#include "(\S*)"', path.read_text(), re.MULTILINE):
                 self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
 
-    def test_each_header_says_in_one_line_that_it_needs_cxx20(self):
+    def test_each_header_stands_alone_pleases_strict_compilers_and_says_in_one_line_that_it_needs_cxx20(self):
+        strict = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Wold-style-cast")
+        user = self.folder / "user.cpp"
         for path in self.prefix.rglob("*.h"):
+            compile_it = [cached("CMAKE_CXX_COMPILER"), "-fsyntax-only", "-I", path.parent.parent, user]
+            user.write_text(f"#include <edgewise/{path.name}>\n")
+            if FULL:
+                run(*compile_it, "-std=c++20", "-Werror", *strict)
             if path.name == "edgewise.h":
                 continue  # for C
-            user = self.folder / "user.cpp"
             user.write_text(f"#include <edgewise/{path.name}>\nedgewise::Undeclared undeclared;\n")
-            done = subprocess.run([cached("CMAKE_CXX_COMPILER"), "-std=c++17", "-fsyntax-only",
-                                   "-I", path.parent.parent, user], capture_output=True, text=True, check=False)
+            done = subprocess.run([*compile_it, "-std=c++17"], capture_output=True, text=True, check=False)
             errors = [line for line in done.stderr.splitlines() if "error:" in line]
             self.assertNotEqual(done.returncode, 0)
             self.assertEqual(len(errors), 1, done.stderr)
             self.assertIn("C++20", errors[0])
-
-    def test_the_licence(self):
-        text = next(self.prefix.glob("share/doc/edgewise/LICENSE")).read_text()
-        self.assertTrue(text.startswith("MIT License\n\nCopyright (c) "))
-
-    @unittest.skipUnless(FULL, "compiles each header")
-    def test_each_header_stands_alone_and_pleases_strict_compilers(self):
-        strict = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Wold-style-cast")
-        for path in self.prefix.rglob("*.h"):
-            alone = self.folder / f"{path.stem}.cpp"
-            alone.write_text(f"#include <edgewise/{path.name}>\n")
-            run(cached("CMAKE_CXX_COMPILER"), "-std=c++20", "-fsyntax-only", "-Werror", *strict,
-                "-I", path.parent.parent, alone)
 
     def test_another_version_is_refused(self):
         project = self.folder / "version"
@@ -222,49 +220,34 @@ class Installed(unittest.TestCase):
         self.assertEqual({str(path.relative_to(staged)) for path in staged.rglob("*") if path.is_file()},
                          {str(path.relative_to(self.prefix)) for path in self.prefix.rglob("*") if path.is_file()})
 
-    def build_along(self, way, shared):
-        """The source as a part of the consumer's build, which brings nothing but the library."""
-        build = self.folder / way
-        configure(CONSUMER, build, f"-DEDGEWISE_FROM={way}", f"-DEDGEWISE_SOURCE={ROOT}",
-                  f"-DBUILD_SHARED_LIBS={'ON' if shared else 'OFF'}",
-                  *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in LABORATORY_PACKAGES))
-        ours = {target for target in targets(build) if re.match("edgewise_|fuzz_", target)}
-        self.assertLessEqual(ours, {"edgewise_files", "edgewise_files_inside", "edgewise_image", "edgewise_inside"})
-        self.assertRegex((build / "CMakeCache.txt").read_text(), r"(?m)^CMAKE_BUILD_TYPE:\w+=$")  # the consumer's choice
-        if FULL:
-            run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
-            self.use(build)
-            self.check_exports(build / "libplugin.so")
-
-    def test_add_subdirectory(self):
-        self.build_along("subdirectory", shared=False)
-
-    def test_fetch_content(self):
-        self.build_along("fetch", shared=True)
+    def test_the_source_as_a_part_of_the_consumers_build_brings_nothing_but_the_library(self):
+        for way, shared in (("subdirectory", "OFF"), ("fetch", "ON")):
+            build = self.folder / way
+            configure(CONSUMER, build, f"-DEDGEWISE_FROM={way}", f"-DEDGEWISE_SOURCE={ROOT}", f"-DBUILD_SHARED_LIBS={shared}",
+                      *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in LABORATORY_PACKAGES))
+            listed = run("cmake", "--build", build, "--target", "help")
+            ours = set(re.findall(r"^(?:\.\.\. )?((?:edgewise_|fuzz_)[\w-]+)", listed, re.MULTILINE))
+            self.assertLessEqual(ours, {"edgewise_files", "edgewise_files_inside", "edgewise_image", "edgewise_inside"})
+            self.assertRegex((build / "CMakeCache.txt").read_text(), r"(?m)^CMAKE_BUILD_TYPE:\w+=$")  # the consumer's choice
+            if FULL:
+                run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
+                self.use(build)
+                self.check_exports(build / "libplugin.so")
 
     @unittest.skipUnless(FULL, "compiles the library anew")
     def test_a_shared_library(self):
-        build, prefix = self.folder / "shared", self.folder / "shared-prefix"
-        configure(ROOT, build, "-DBUILD_SHARED_LIBS=ON", "-DEDGEWISE_LABORATORY=OFF", "-DCMAKE_CXX_FLAGS=-fvisibility=hidden")
-        run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
-        run("cmake", "--install", build, "--prefix", prefix)
+        prefix = self.built("shared", "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_CXX_FLAGS=-fvisibility=hidden")
         for name in ("edgewise", "edgewise_files"):
             self.assertIn(f"Library soname: [lib{name}.so.0.3]",
                           run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
             self.check_exports(next(prefix.rglob(f"lib{name}.so")), whole=name == "edgewise")
-        self.use_package(prefix, "shared-package")
-        self.use_pkg_config(prefix, "shared-pkg-config")
+        self.use_both(prefix, "shared")
 
     @unittest.skipUnless(FULL, "compiles the library anew")
     def test_a_library_without_onetbb(self):
-        build, prefix = self.folder / "serial", self.folder / "serial-prefix"
-        configure(ROOT, build, "-DEDGEWISE_THREADS=OFF", "-DEDGEWISE_LABORATORY=OFF",
-                  "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
-        run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
-        run("cmake", "--install", build, "--prefix", prefix)
+        prefix = self.built("serial", "-DEDGEWISE_THREADS=OFF", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
         self.assertNotIn("tbb", next(prefix.rglob("edgewise.pc")).read_text())
-        self.use_package(prefix, "serial-package", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
-        self.use_pkg_config(prefix, "serial-pkg-config")
+        self.use_both(prefix, "serial", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,8 @@
 """claims.py: README's claims hold on the committed results, and a claim that does not hold is found."""
-import sys
 import unittest
 
-from support import ROOT, SCRIPTS
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-import claims  # noqa: E402
+from support import ROOT
+import claims
 
 
 class ClaimsTest(unittest.TestCase):
@@ -23,7 +20,7 @@ class ClaimsTest(unittest.TestCase):
         self.assertEqual(found({}, {"a": good, "b": good}), [])
         self.assertIn("b: median", *found({}, {"a": good, "b": bad}))
         self.assertIn("timed on a, not on a, b", *found({}, {"a": good}))
-        self.assertIn("not name", *found({"of": ["a"], "named": "Zen 3"}, {"a": good}))
+        self.assertIn("not on one that it names", *found({"of": []}, {"a": good}))
         self.assertIn("not in README", *found({"says": "A second core doubles the speed."}, {"a": good, "b": good}))
 
     def test_a_sentence_without_a_claim_is_found(self):

@@ -1,16 +1,13 @@
 """noise.py: how often it takes noise for a difference, and whether it finds known ones."""
 import json
 import random
-import sys
 import unittest
 from itertools import combinations, product
 
-from support import ROOT, SCRIPTS, FolderTest
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-import noise  # noqa: E402
-import bench_rows  # noqa: E402
-from bench_rows import Row, read_bench  # noqa: E402
+from support import ROOT, FolderTest
+import noise
+import bench_rows
+from bench_rows import Row, read_bench
 
 
 def noisy(generator):

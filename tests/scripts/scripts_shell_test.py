@@ -7,7 +7,7 @@ import shutil
 import sys
 import unittest
 
-from support import RESULTS, SCRIPTS, FolderTest, run
+from support import RESULTS, SCRIPTS, FolderTest
 
 APT_OFFLINE = """#!/bin/bash
 echo "W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  Temporary failure resolving 'deb.debian.org'" >&2
@@ -190,13 +190,6 @@ class ShellTest(FolderTest):
             self.assertRegex(lines[1], r"apt-get install --no-install-recommends ninja-build$")
             self.assertEqual(lines[2], "apt-get said:")
 
-    def test_steps_tell_how_long_they_took_last_time(self):
-        commands = "mkdir -p $build; step Slow 150; SECONDS=$((SECONDS + {})); step 'Not known'; end_step"
-        first, then, again = (self.library(commands.format(seconds)).stdout for seconds in (95, 10, 10))
-        self.assertRegex(first, r"^\[1, \d s\] Slow \(expected: 2 min 30 s\)\n\[2, 9\d s\] Not known\n$")
-        self.assertRegex(then, r"Slow \(took 1 min 3\d s last time\)\n.*Not known \(took \d s last time\)\n$")
-        self.assertRegex(again, r"Slow \(took 1\d s last time\)")
-
     def test_a_build_prints_warnings_and_its_last_line(self):
         for environment in ({}, {"TERM": "dumb"}):
             result = self.library("build all", **environment)
@@ -220,29 +213,7 @@ class ShellTest(FolderTest):
         self.assertEqual({name: (one["result"], one["found"]) for name, one in written.items()}, found)
         self.assertRegex(result.stdout, r"wrong: failed, \d s after the start of this step; see build/platforms/wrong.log\n")
 
-    def test_packages_of_another_processor_are_unpacked_once(self):
-        self.file("package/DEBIAN/control", "Package: a\nVersion: 1\nArchitecture: arm64\nMaintainer: me\nDescription: x\n")
-        self.file("package/usr/include/a.h", "")
-        run("dpkg-deb", "-b", self.folder / "package", self.folder / "a.deb")
-        self.tool("apt-get", f'''#!/bin/bash
-echo "$*" >>"$CALLS"
-for a; do [[ $a != Dir::Cache=* ]] || cp {self.folder}/a.deb "${{a#*=}}/archives/"; done''')
-        def unpack(folder):
-            return self.library(f". $root/scripts/platforms.sh; unpack_sysroot $root/build/{folder} arm64")
-        for _ in range(2):
-            result = unpack("packages")
-            self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertTrue((self.root / "build/packages/usr/include/a.h").exists())
-        update, install = self.calls.read_text().splitlines()
-        self.assertIn("APT::Architecture=arm64", update)
-        self.assertRegex(install, f"Dir::State={self.root}/build/packages/apt .* libtbb-dev")
-        self.tool("apt-get", APT_BROKEN)
-        result = unpack("others")
-        self.assertNotEqual(result.returncode, 0)
-        self.assertIn("dpkg was interrupted", result.stderr)
-
-    def ran(self, *arguments):
-        """The lines of scripts/run with programs that do nothing, and the files that it left outside build/ or changed there."""
+    def test_a_run_draws_and_verifies_before_it_builds_the_rest_and_a_full_one_can_be_published(self):
         program = self.file("program", PROGRAM)
         self.tool("cmake", f"""#!/bin/bash
 echo "cmake $*" >>"$CALLS"
@@ -257,32 +228,30 @@ folder.mkdir()
 (folder / "choice.svg").write_text(" ".join(sys.argv))
 """)
         self.file("root/scripts/reporting/corner_picture.py", "")  # reads pictures
-        before = self.outside_build()
-        result = self.run_script("run", "--no-install", *arguments)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.assertEqual(self.outside_build(), before)
-        return result.stdout
-
-    def outside_build(self):
-        return {path: path.stat().st_mtime_ns for path in self.root.rglob("*") if path.is_file() and path.relative_to(self.root).parts[0] != "build"}
-
-    def test_a_run_draws_and_verifies_before_it_builds_the_rest(self):
         self.file("root/results/facts/accuracy.json", "{}")
-        told = self.ran()
+
+        def outside_build():
+            return {path: path.stat().st_mtime_ns for path in self.root.rglob("*") if path.is_file() and path.relative_to(self.root).parts[0] != "build"}
+
+        def ran(where, *arguments):
+            before = outside_build()
+            result = self.run_script("run", "--no-install", *arguments)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            self.assertEqual(outside_build(), before)
+            self.assertIn(f"\nChart:    build/{where}/mine/charts/choice.svg\nPictures: build/{where}/facts/pictures\n", result.stdout)
+            drawn = (self.root / f"build/{where}/mine/charts/choice.svg").read_text()
+            self.assertEqual("--main" in drawn, "--full" not in arguments)
+            return result.stdout
+
+        told = ran("first-results")
         calls = [line for line in self.calls.read_text().splitlines() if "-S" not in line]
         order = [next(i for i, call in enumerate(calls) if re.search(what, call)) for what in
                  ("cmake .* edgewise_first$", "first render", "first verify", "cmake .* edgewise_bench$", "accuracy choice", "bench --quick")]
         self.assertEqual(order, sorted(order))
         self.assertLess(max(map(len, told.split("\n\n", 1)[1].splitlines())), 81)
-        self.assertIn("\nChart:    build/first-results/mine/charts/choice.svg\nPictures: build/first-results/facts/pictures\n", told)
-        self.assertIn("--main", (self.root / "build/first-results/mine/charts/choice.svg").read_text())
-
-    def test_a_full_run_leaves_results_that_can_be_published(self):
-        told = self.ran("--full")
-        results = self.root / "build/results"
-        self.assertIn("\nChart:    build/results/mine/charts/choice.svg\n", told)
-        self.assertNotIn("--main", (results / "mine/charts/choice.svg").read_text())
-        self.assertLessEqual({"accuracy", "demos", "needs", "portable", "stability"}, {path.stem for path in (results / "facts").glob("*.json")})
+        ran("results", "--full")
+        facts = {path.stem for path in (self.root / "build/results/facts").glob("*.json")}
+        self.assertLessEqual({"accuracy", "demos", "needs", "portable", "stability"}, facts)
 
     def run_tests(self, **environment):
         result = self.run_script("test", CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % "")), **environment)

@@ -1,17 +1,14 @@
 """The tables of results where the committed ones don't show a case; scripts_test.py has the READMEs."""
 import json
-import sys
 import unittest
 
-from support import SCRIPTS, FolderTest
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-from accuracy_rows import parse_accuracy  # noqa: E402
-from bench_rows import Bench, parse_name  # noqa: E402
-from bench_tables import peer_lines, speed_table  # noqa: E402
-from facts_tables import pipelines_table  # noqa: E402
-from program import BadInput  # noqa: E402
-from python_tables import python_lines, read_python  # noqa: E402
+from support import FolderTest
+from accuracy_rows import parse_accuracy
+from bench_rows import Bench, parse_name
+from bench_tables import peer_lines, speed_table
+from facts_tables import pipelines_table
+from program import BadInput
+from python_tables import python_lines, read_python
 
 NOISE = (0.99, 1.0, 1.01, 0.995, 1.005)
 
@@ -79,10 +76,6 @@ class PythonTest(FolderTest):
                                    "load and draw is 4.0× faster in 1 of 1 scene. Of 5k pixels 0 show another triangle, 2 of them a hole.")
         self.assertTrue(lines[1].startswith("- Against moderngl 1, a draw into new arrays is 2.0× slower in 1 of 1 scene; "))
         self.assertEqual(lines[-1], "On 2 threads; `mine`, commit abc. A scene is a mesh at one size.")
-
-    def test_an_older_file_reuses_no_arrays(self):
-        data = json.dumps(compared_packages(vtk=(4.0, 0), moderngl=(0.5, 1234))).replace("redraw", "unknown")
-        self.assertNotIn("reused", python_lines(self.read(json.loads(data))))
 
     def test_nothing_is_said_of_nothing_and_what_is_no_result_is_refused(self):
         self.assertEqual(python_lines(read_python(self.folder / "results/mine")), "No other Python package was measured here; `scripts/run --full --peers` does.")

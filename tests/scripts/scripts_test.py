@@ -3,18 +3,15 @@ import importlib.util
 import json
 import re
 import shutil
-import sys
 import unittest
 from itertools import product
 
 import support
 from support import RESULTS, ROOT, SCRIPTS, FolderTest, copied_results, google_benchmark, read
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-from accuracy_rows import parse_accuracy, read_stability, with_peers  # noqa: E402
-from bench_rows import Bench, describe_machine, parse_name  # noqa: E402
-from factors import gains  # noqa: E402
-from program import BadInput, readmes  # noqa: E402
+from accuracy_rows import parse_accuracy, read_stability, with_peers
+from bench_rows import Bench, describe_machine, parse_name
+from factors import gains
+from program import BadInput, readmes
 
 
 def run(script, *arguments):

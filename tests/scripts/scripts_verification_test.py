@@ -4,10 +4,8 @@ import sys
 import unittest
 
 from support import SCRIPTS, FolderTest, run
-
-sys.path.insert(0, str(SCRIPTS / "reporting"))
-from platforms import TRIED, platforms_table  # noqa: E402
-from verification_summary import verification_table  # noqa: E402
+from platforms import TRIED, platforms_table
+from verification_summary import verification_table
 
 
 def gtest_case(suite, name, inside="", result="completed", **properties):
@@ -32,8 +30,8 @@ GOOD = {"tests": {"all": totals(500, cases=2_000_000, comparisons=0), "sanitized
 
 
 class CollectTest(FolderTest):
-    def collected(self, *options):
-        return run(sys.executable, SCRIPTS / "checks/test_results.py", self.folder, *options)
+    def collected(self):
+        return run(sys.executable, SCRIPTS / "checks/test_results.py", self.folder, "--json")
 
     def test_adds_up_shards_and_sanitizers(self):
         for i, shard in enumerate(SHARDS):
@@ -41,20 +39,12 @@ class CollectTest(FolderTest):
         cases = "".join(f'<testcase status="{status}"><skipped message="SKIP_RETURN_CODE=77"/></testcase>' for status in CTEST)
         self.file("thread.xml", f"<testsuite>{cases}</testsuite>")
         self.file("address.xml", "")  # not run yet
-        self.assertEqual(json.loads(self.collected("--json").stdout), TOTALS)
+        self.assertEqual(json.loads(self.collected().stdout), TOTALS)
 
     def test_says_what_is_no_result(self):
         self.file("thread.xml", "<a/>")
-        result = self.collected("--json")
-        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
-
-    def test_a_run_that_wrote_nothing_failed_and_a_shard_without_tests_did_not(self):
-        for name, text in (("shard-0", '<testsuites><testsuite><testcase name="a" classname="A"/></testsuite></testsuites>'),
-                           ("shard-1", '<testsuites tests="0"></testsuites>'), ("died", "")):
-            self.file(f"{name}.xml", text)
         result = self.collected()
-        self.assertEqual(result.stdout.splitlines()[-1], "1 passed, 1 failed, 0 skipped")
-        self.assertIn("the run ended without results; see above (died)", result.stdout)
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
 
 
 class VerificationTest(FolderTest):
