@@ -41,6 +41,14 @@ int snapped_side(const ScreenTriangle& t, std::size_t from, std::size_t to, Wide
       cross(Wide{t.x_q15[from]}, Wide{t.y_q15[from]}, Wide{t.x_q15[to]}, Wide{t.y_q15[to]}, sx, sy));
 }
 
+int float_side(const double (&x)[3], const double (&y)[3], std::size_t from, std::size_t to, double sx,
+               double sy) {
+  const Ball estimate = cross(Ball(x[from]), Ball(y[from]), Ball(x[to]), Ball(y[to]), Ball(sx), Ball(sy));
+  if (const int sign = estimate.sign(); sign != 0) return sign;
+  return sgn(cross(mpq_class(x[from]), mpq_class(y[from]), mpq_class(x[to]), mpq_class(y[to]), mpq_class(sx),
+                   mpq_class(sy)));
+}
+
 constexpr double sample_px(int pixel) {
   return pixel + 0.5;
 }
@@ -107,12 +115,12 @@ PixelBounds pixels_between(double x0, double y0, double x1, double y1, Window wi
 }
 
 SnappedTruth::SnappedTruth(const ScreenTriangle& triangle)
-    : triangle_(triangle),
-      rule_(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])) {}
+    : FillRule(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])),
+      triangle_(triangle) {}
 
 bool SnappedTruth::accepts(std::size_t edge, int px, int py) const {
-  return rule_.accepts(edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384,
-                                          Wide{py} * 32768 + 16384));
+  return FillRule::accepts(edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384,
+                                              Wide{py} * 32768 + 16384));
 }
 
 double SnappedTruth::crossing(std::size_t edge, int py) const {
@@ -139,7 +147,9 @@ Ball SnappedTruth::depth_estimate(int px, int py) const {
 }
 
 FloatTruth::FloatTruth(const double (&x_px)[3], const double (&y_px)[3])
-    : x_{x_px[0], x_px[1], x_px[2]}, y_{y_px[0], y_px[1], y_px[2]}, rule_(y_, side(0, 1, x_[2], y_[2])) {}
+    : FillRule(y_px, float_side(x_px, y_px, 0, 1, x_px[2], y_px[2])),
+      x_{x_px[0], x_px[1], x_px[2]},
+      y_{y_px[0], y_px[1], y_px[2]} {}
 
 FloatTruth::FloatTruth(const UnsnappedTriangle& t)
     : FloatTruth({double{t.x_px[0]}, double{t.x_px[1]}, double{t.x_px[2]}},
@@ -147,15 +157,8 @@ FloatTruth::FloatTruth(const UnsnappedTriangle& t)
   for (int i = 0; i < 3; ++i) z_[i] = double{t.z01[i]};
 }
 
-int FloatTruth::side(std::size_t from, std::size_t to, double sx, double sy) const {
-  const Ball estimate = cross(Ball(x_[from]), Ball(y_[from]), Ball(x_[to]), Ball(y_[to]), Ball(sx), Ball(sy));
-  if (const int sign = estimate.sign(); sign != 0) return sign;
-  return sgn(cross(mpq_class(x_[from]), mpq_class(y_[from]), mpq_class(x_[to]), mpq_class(y_[to]),
-                   mpq_class(sx), mpq_class(sy)));
-}
-
 bool FloatTruth::accepts(std::size_t edge, int px, int py) const {
-  return rule_.accepts(edge, side(edge, (edge + 1) % 3, sample_px(px), sample_px(py)));
+  return FillRule::accepts(edge, float_side(x_, y_, edge, (edge + 1) % 3, sample_px(px), sample_px(py)));
 }
 
 double FloatTruth::crossing(std::size_t edge, int py) const {

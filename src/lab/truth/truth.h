@@ -50,6 +50,8 @@ struct Run {
 // edge) or to the right of it (a left edge).
 class FillRule {
  public:
+  static constexpr double kDepthError = 0.0;  // of exact planes
+
   // `facing` is the sign of cross(v0, v1, v2) below: 1 is clockwise on the y-down screen.
   template <typename Y>
   FillRule(const Y (&y)[3], int facing) : facing_(facing) {
@@ -60,7 +62,8 @@ class FillRule {
       accepts_ties_[i] = lean_[i] > 0 || (lean_[i] == 0 && third > from);
     }
   }
-  int facing() const { return facing_; }
+  int facing() const { return facing_; }  // 1 front (clockwise), -1 back, 0 without area
+  std::size_t sides() const { return 3; }
   // The side of an edge on which the triangle lies: 1 right, -1 left, 0 if the edge is horizontal.
   int lean(std::size_t edge) const { return lean_[edge]; }
   // `side` is the sign of cross(from, to, sample).
@@ -73,55 +76,43 @@ class FillRule {
 
 // Both truths have the same interface, which lab/truth/scan.h states. Edge i runs from vertex i to the next
 // one; a pixel's sample is its centre.
-class SnappedTruth {
+class SnappedTruth : public FillRule {
  public:
   explicit SnappedTruth(const ScreenTriangle& triangle);
-  int facing() const { return rule_.facing(); }  // 1 front (clockwise), -1 back, 0 without area
   bool covers(int px, int py) const;
-  std::size_t sides() const { return 3; }
-  int lean(std::size_t edge) const { return rule_.lean(edge); }
   bool accepts(std::size_t edge, int px, int py) const;
   double crossing(std::size_t edge, int py) const;
   PixelBounds box(Window window) const;
   // On the exact plane, in depth units of rule 6. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
-  static constexpr double kDepthError = 0.0;
 
   double x_px(std::size_t vertex) const { return triangle_.x_q15[vertex] / 32768.0; }
   double y_px(std::size_t vertex) const { return triangle_.y_q15[vertex] / 32768.0; }
 
  private:
   ScreenTriangle triangle_;
-  FillRule rule_;
 };
 
-class FloatTruth {
+class FloatTruth : public FillRule {
  public:
   // Coordinates and depths must be finite.
   explicit FloatTruth(const UnsnappedTriangle& triangle);
   // Positions in double; without depth.
   FloatTruth(const double (&x_px)[3], const double (&y_px)[3]);
-  int facing() const { return rule_.facing(); }
   bool covers(int px, int py) const;
-  std::size_t sides() const { return 3; }
-  int lean(std::size_t edge) const { return rule_.lean(edge); }
   bool accepts(std::size_t edge, int px, int py) const;
   double crossing(std::size_t edge, int py) const;
   PixelBounds box(Window window) const;
   // On the exact plane, in the unit of z01. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
-  static constexpr double kDepthError = 0.0;
 
   double x_px(std::size_t vertex) const { return x_[vertex]; }
   double y_px(std::size_t vertex) const { return y_[vertex]; }
 
  private:
-  int side(std::size_t from, std::size_t to, double x_px, double y_px) const;
-
   double x_[3], y_[3], z_[3] = {};
-  FillRule rule_;
 };
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
