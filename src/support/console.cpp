@@ -9,7 +9,6 @@
 #include <mutex>
 #include <set>
 #include <string>
-#include <string_view>
 
 #include "support/printable.h"
 

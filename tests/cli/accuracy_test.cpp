@@ -5,7 +5,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <string>
 
 #include "cli/accuracy/accuracy.h"
 #include "edgewise/tri_file.h"

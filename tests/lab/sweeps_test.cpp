@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/stability/report.h"
 #include "lab/sweeps/sweeps.h"

@@ -2,7 +2,6 @@
 // files.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <set>
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
-#include <optional>
 
 #include "edgewise/draw.h"
 #include "edgewise/tri_file.h"

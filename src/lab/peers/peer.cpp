@@ -4,7 +4,6 @@
 
 #include <regex>
 #include <stdexcept>
-#include <vector>
 
 namespace edgewise::lab {
 

@@ -25,7 +25,6 @@
 // has no larger steps than d32_sfloat.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 

@@ -1,6 +1,4 @@
 // Facing sweeps: the tilt of the rays to the faces, and how near the faces are to edge-on.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/random.h"
