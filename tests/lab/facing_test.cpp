@@ -113,23 +113,6 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVerticesOrTheirNormal) {
   }
 }
 
-// The first three vertices are one of the quad's two triangles; the other one is larger on the screen and has
-// the opposite orientation.
-TEST(Facing, ANonPlanarQuadCanFaceOppositeToItsFirstTriangle) {
-  FacingScene scene;
-  scene.positions = {{-1, 0, 4}, {0, 0.5f, 4}, {1, 0, 4}, {0, 1, 6}};
-  scene.add_face(0);
-  const auto facts = facing_facts(scene);
-  EXPECT_TRUE(facts[0].source.first_three_differ);
-  EXPECT_TRUE(facts[0].snapped.first_three_differ);
-  for (const auto& m : facing_methods()) {
-    const auto s = score(m, scene, facts);
-    EXPECT_EQ(s.source.misclassified, m.by_normal ? 0u : 1u) << m.info.name;
-    EXPECT_EQ(s.source.misled, s.source.misclassified) << m.info.name;
-    EXPECT_EQ(s.snapped.misled, s.snapped.misclassified) << m.info.name;
-  }
-}
-
 // Of a scene, methods by normals test each face once, by the normal of the whole. Each quad's first triangle
 // has no area, or it is folded away from the rest.
 TEST(Facing, FacesOfASceneAreTestedOnceByTheirNormal) {
