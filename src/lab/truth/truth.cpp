@@ -1,6 +1,5 @@
 #include "lab/truth/truth.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lab/truth/scan.h"
@@ -53,22 +52,6 @@ constexpr double sample_px(int pixel) {
   return pixel + 0.5;
 }
 
-// Where an edge crosses the samples of a row.
-template <typename Truth>
-double crossing_of(const Truth& truth, std::size_t edge, int py) {
-  const std::size_t next = (edge + 1) % 3;
-  const double slope = (truth.x_px(next) - truth.x_px(edge)) / (truth.y_px(next) - truth.y_px(edge));
-  return truth.x_px(edge) + (sample_px(py) - truth.y_px(edge)) * slope;
-}
-
-// The pixels inside the window that overlap the triangle's bounding box.
-template <typename Truth>
-PixelBounds box_of(const Truth& truth, Window window) {
-  const auto [low_x, high_x] = std::minmax({truth.x_px(0), truth.x_px(1), truth.x_px(2)});
-  const auto [low_y, high_y] = std::minmax({truth.y_px(0), truth.y_px(1), truth.y_px(2)});
-  return pixels_between(low_x, low_y, high_x, high_y, window);
-}
-
 SnappedTruth truth_of(const ScreenTriangle& t) {
   return SnappedTruth(t);
 }
@@ -115,24 +98,12 @@ PixelBounds pixels_between(double x0, double y0, double x1, double y1, Window wi
 }
 
 SnappedTruth::SnappedTruth(const ScreenTriangle& triangle)
-    : FillRule(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])),
+    : ScreenTruth(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])),
       triangle_(triangle) {}
 
 bool SnappedTruth::accepts(std::size_t edge, int px, int py) const {
   return FillRule::accepts(edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384,
                                               Wide{py} * 32768 + 16384));
-}
-
-double SnappedTruth::crossing(std::size_t edge, int py) const {
-  return crossing_of(*this, edge, py);
-}
-
-PixelBounds SnappedTruth::box(Window window) const {
-  return box_of(*this, window);
-}
-
-bool SnappedTruth::covers(int px, int py) const {
-  return facing() != 0 && accepts(0, px, py) && accepts(1, px, py) && accepts(2, px, py);
 }
 
 mpq_class SnappedTruth::depth(int px, int py) const {
@@ -147,7 +118,7 @@ Ball SnappedTruth::depth_estimate(int px, int py) const {
 }
 
 FloatTruth::FloatTruth(const double (&x_px)[3], const double (&y_px)[3])
-    : FillRule(y_px, float_side(x_px, y_px, 0, 1, x_px[2], y_px[2])),
+    : ScreenTruth(y_px, float_side(x_px, y_px, 0, 1, x_px[2], y_px[2])),
       x_{x_px[0], x_px[1], x_px[2]},
       y_{y_px[0], y_px[1], y_px[2]} {}
 
@@ -159,18 +130,6 @@ FloatTruth::FloatTruth(const UnsnappedTriangle& t)
 
 bool FloatTruth::accepts(std::size_t edge, int px, int py) const {
   return FillRule::accepts(edge, float_side(x_, y_, edge, (edge + 1) % 3, sample_px(px), sample_px(py)));
-}
-
-double FloatTruth::crossing(std::size_t edge, int py) const {
-  return crossing_of(*this, edge, py);
-}
-
-PixelBounds FloatTruth::box(Window window) const {
-  return box_of(*this, window);
-}
-
-bool FloatTruth::covers(int px, int py) const {
-  return facing() != 0 && accepts(0, px, py) && accepts(1, px, py) && accepts(2, px, py);
 }
 
 mpq_class FloatTruth::depth(int px, int py) const {

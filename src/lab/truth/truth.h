@@ -9,6 +9,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -74,15 +75,35 @@ class FillRule {
   bool accepts_ties_[3];
 };
 
-// Both truths have the same interface, which lab/truth/scan.h states. Edge i runs from vertex i to the next
-// one; a pixel's sample is its centre.
-class SnappedTruth : public FillRule {
+// What both truths share. They have the same interface, which lab/truth/scan.h states, and x_px(vertex) and
+// y_px(vertex). Edge i runs from vertex i to the next one; a pixel's sample is its centre.
+template <typename Truth>
+class ScreenTruth : public FillRule {
+ public:
+  using FillRule::FillRule;
+  bool covers(int px, int py) const {
+    const Truth& t = self();
+    return facing() != 0 && t.accepts(0, px, py) && t.accepts(1, px, py) && t.accepts(2, px, py);
+  }
+  double crossing(std::size_t edge, int py) const {
+    const std::size_t next = (edge + 1) % 3;
+    const double x = self().x_px(edge), y = self().y_px(edge);
+    return x + (py + 0.5 - y) * ((self().x_px(next) - x) / (self().y_px(next) - y));
+  }
+  PixelBounds box(Window window) const {
+    const auto [low_x, high_x] = std::minmax({self().x_px(0), self().x_px(1), self().x_px(2)});
+    const auto [low_y, high_y] = std::minmax({self().y_px(0), self().y_px(1), self().y_px(2)});
+    return pixels_between(low_x, low_y, high_x, high_y, window);
+  }
+
+ private:
+  const Truth& self() const { return static_cast<const Truth&>(*this); }
+};
+
+class SnappedTruth : public ScreenTruth<SnappedTruth> {
  public:
   explicit SnappedTruth(const ScreenTriangle& triangle);
-  bool covers(int px, int py) const;
   bool accepts(std::size_t edge, int px, int py) const;
-  double crossing(std::size_t edge, int py) const;
-  PixelBounds box(Window window) const;
   // On the exact plane, in depth units of rule 6. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
@@ -94,16 +115,13 @@ class SnappedTruth : public FillRule {
   ScreenTriangle triangle_;
 };
 
-class FloatTruth : public FillRule {
+class FloatTruth : public ScreenTruth<FloatTruth> {
  public:
   // Coordinates and depths must be finite.
   explicit FloatTruth(const UnsnappedTriangle& triangle);
   // Positions in double; without depth.
   FloatTruth(const double (&x_px)[3], const double (&y_px)[3]);
-  bool covers(int px, int py) const;
   bool accepts(std::size_t edge, int px, int py) const;
-  double crossing(std::size_t edge, int py) const;
-  PixelBounds box(Window window) const;
   // On the exact plane, in the unit of z01. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
