@@ -9,7 +9,6 @@
 namespace edgewise::lab {
 namespace {
 
-using testing::adversarial;
 using testing::Picture;
 
 // A triangle of 15 pixels and one of a single pixel in a 5 x 5 window at (10, 20). The expected scores are
@@ -103,25 +102,6 @@ TEST(PixelChanges, AreSuperfluousIfThePixelChangesOftenerAndNotOnlyEarlierOrLate
   EXPECT_EQ(beyond({2, 2, 2, 2}, {1, 2, 2, 2}), 0u) << "the truth may have changed before the first one";
   EXPECT_EQ(beyond({1, 1, 1, 1}, {1, 2, 1, 1}), 2u);
   EXPECT_EQ(beyond({1, 1, 2, 2}, {1, 2, 1, 2}), 2u);
-}
-
-TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
-  constexpr int kWidth = 80, kHeight = 60;
-  const auto triangles = adversarial("cloud", 400, kWidth, kHeight, 15);
-  std::set<std::uint32_t> seen;
-  const auto groups = disjoint_sets(triangles, kWidth, kHeight);
-  EXPECT_LT(groups.size(), triangles.size() / 2);
-  for (const auto& group : groups) {
-    std::set<std::pair<int, int>> used;
-    for (const std::uint32_t i : group) {
-      EXPECT_TRUE(seen.insert(i).second);
-      const auto box = contract::pixel_box(triangles[i], kWidth, kHeight);
-      for (int y = box.y0; y < box.y1; ++y)
-        for (int x = box.x0; x < box.x1; ++x) EXPECT_TRUE(used.insert({x, y}).second);
-    }
-  }
-  for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    EXPECT_EQ(seen.count(i) == 0, contract::pixel_box(triangles[i], kWidth, kHeight).empty());
 }
 
 }  // namespace

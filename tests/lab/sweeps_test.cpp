@@ -176,15 +176,5 @@ TEST(FacingSweeps, SnappingFlipsFacesOneSubUnitThinAndFloatsMuchThinnerOnes) {
   EXPECT_LT(Found(edge_on, "snapped_area_15").start().value(), snapped / 16);
 }
 
-TEST(ClippingSweeps, OnlyAMatrixOfFloatsDependsOnWhereTheOriginLies) {
-  const SweepResult origin = swept("origin");
-  const auto errors = [&](double away) { return Found(origin, "matrix_float").at(away).errors; };
-  EXPECT_EQ(errors(20), errors(1));
-  EXPECT_GT(errors(20'000), errors(1));
-  EXPECT_GT(Found(origin, "matrix_float").at(1e8).rate(), 0.5);
-  for (const auto method : {"near_guard", "matrix_relative", "screen_edges"})
-    EXPECT_EQ(Found(origin, method).at(1), Found(origin, method).at(1e8)) << method;
-}
-
 }  // namespace
 }  // namespace edgewise::lab
