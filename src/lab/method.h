@@ -22,6 +22,13 @@ struct MethodInfo {
   bool exact;                // no errors against the snapped truth
 };
 
+template <typename Methods>
+std::vector<MethodInfo> infos_of(const Methods& methods) {
+  std::vector<MethodInfo> list;
+  for (const auto& method : methods) list.push_back(method.info);
+  return list;
+}
+
 // Whether culling keeps a triangle whose area has this sign: 1 clockwise on the screen, the front.
 constexpr bool keeps(Cull cull, int facing) {
   return cull == Cull::none || (cull == Cull::back && facing > 0) || (cull == Cull::front && facing < 0);

@@ -68,18 +68,6 @@ TEST(Facing, TheErrorRateOfNormalZIsTheTiltOver180Degrees) {
   }
 }
 
-TEST(Facing, TheSignOfTheProjectedAreaTellsTheCamerasSide) {
-  const FacingScene scene = tilted_faces(0.5, true, 500, 3);
-  const auto facts = facing_facts(scene);
-  for (std::size_t i = 0; i < facts.size(); ++i) {
-    const glm::dvec3 a(scene.positions[3 * i]), b(scene.positions[3 * i + 1]), c(scene.positions[3 * i + 2]);
-    const double side = glm::dot(glm::cross(c - a, b - a), glm::dvec3(scene.view.eye) - a);
-    if (std::abs(side) > 1e-6) {
-      EXPECT_EQ(facts[i].source.front, side > 0) << i;
-    }
-  }
-}
-
 // Any three vertices determine the orientation of a convex planar polygon. For other polygons, methods by
 // areas make additional errors only where the first three vertices have another orientation than the polygon.
 // The normal of a planar polygon never misleads.

@@ -13,8 +13,8 @@
 namespace edgewise::lab {
 namespace {
 
-SweepResult swept(std::string_view name, int threads = 2) {
-  return run_sweep(find_sweep(name), kQuick, threads);
+SweepResult swept(std::string_view name) {
+  return run_sweep(find_sweep(name), kQuick, 2);
 }
 
 // A sweep's results for one method.
@@ -75,23 +75,6 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EverySweep, ::testing::ValuesIn(sweep_names()),
                          [](const auto& param) { return std::string(param.param); });
-
-TEST(Sweeps, StartToFailWhereErrorsExceedTheTolerance) {
-  Sweep sweep{};
-  sweep.positions = {8, 4, 2};
-  SweepResult result{&sweep, std::vector<Measured>(3, Measured(3))};
-  result.at[1].methods[1] = {6, 50'000};
-  result.at[2].methods[1] = {9, 50'000};
-  for (Measured& measured : result.at) measured.methods[2] = {5, 50'000};
-  EXPECT_EQ(result.starts_to_fail(0), std::nullopt);
-  EXPECT_EQ(result.starts_to_fail(1), 4);
-  EXPECT_EQ(result.starts_to_fail(2), std::nullopt);
-}
-
-TEST(Sweeps, PositionsAreTheNearestDoublesToTheirDecimals) {
-  EXPECT_EQ(decades(-2, 0), (std::vector<double>{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1}));
-  EXPECT_EQ(powers_of_two(1, -1), (std::vector<double>{2, 1, 0.5}));
-}
 
 TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   const SweepResult legs = swept("legs_on_our_grid");

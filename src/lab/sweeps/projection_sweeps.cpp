@@ -32,9 +32,7 @@ Measured measure_scene(Scene scene) {
 }  // namespace
 
 std::vector<MethodInfo> swept_projection_methods() {
-  std::vector<MethodInfo> list;
-  for (const ProjectionMethod& method : swept_projections()) list.push_back(method.info);
-  return list;
+  return infos_of(swept_projections());
 }
 
 std::vector<Sweep> projection_sweeps() {
