@@ -1,9 +1,11 @@
-// Coverage scores of runs with known results, and the functions from which scores are computed.
+// Coverage scores of runs with known results, the functions from which scores are computed, and visible
+// triangles of coverage methods, checked by hand and by rule 6.
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "lab/coverage/pixel_changes.h"
+#include "lab/coverage/visible.h"
 #include "lab/coverage_support.h"
 
 namespace edgewise::lab {
@@ -102,6 +104,32 @@ TEST(PixelChanges, AreSuperfluousIfThePixelChangesOftenerAndNotOnlyEarlierOrLate
   EXPECT_EQ(beyond({2, 2, 2, 2}, {1, 2, 2, 2}), 0u) << "the truth may have changed before the first one";
   EXPECT_EQ(beyond({1, 1, 1, 1}, {1, 2, 1, 1}), 2u);
   EXPECT_EQ(beyond({1, 1, 2, 2}, {1, 2, 1, 2}), 2u);
+}
+
+VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
+  return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid},
+                              picture.cracks.surface(), 2)
+      .score(testing::find_coverage_method(method));
+}
+
+TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
+  const Picture& quad = testing::picture_of("drtk_quad");
+  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_source, 6u) << "the diagonal is not drawn";
+  EXPECT_EQ(visible_triangles_of("float_le", quad).wrong_source, 6u)
+      << "the first triangle draws the diagonal, which belongs to the second";
+  EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
+}
+
+// Intersecting triangles: if two depths differ by less than the error of rule 6, the wrong triangle may be
+// visible.
+TEST(CoverageVisibleTriangles, OfBackendsErrOnlyWithinTheDepthErrorOfRuleSix) {
+  for (const auto family : testing::kFamilies) {
+    const auto grid = testing::adversarial(family, 150, 120, 90, 8);
+    const Picture picture(testing::as_floats(grid), {120, 90});
+    for (const auto& backend : backends())
+      EXPECT_EQ(visible_triangles_of(backend.name, picture).unexplained, 0u)
+          << backend.name << " in " << family;
+  }
 }
 
 }  // namespace
