@@ -44,13 +44,6 @@ struct FloatTriangle {
   std::uint32_t payload;
 };
 
-// One pixel that a method drew for one triangle. It may lie outside the image, which counts as an error.
-struct Hit {
-  std::uint32_t triangle;  // index
-  std::int32_t x, y;
-  auto operator<=>(const Hit&) const = default;
-};
-
 // Rule of three: if n trials show no error, the rate is below 3 / n with 95 % confidence.
 constexpr double rate_bound(std::uint64_t trials) {
   return trials == 0 ? std::numeric_limits<double>::infinity() : 3.0 / static_cast<double>(trials);

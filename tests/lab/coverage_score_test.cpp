@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <tuple>
 
 #include "lab/coverage/pixel_changes.h"
 #include "lab/coverage/visible.h"
@@ -63,6 +64,7 @@ TEST(Crossings, AreTheLargerOfSampleRowsAndColumns) {
 }
 
 TEST(Differences, AreHitsOfOnlyOneList) {
+  using Hit = std::tuple<std::uint32_t, int, int>;  // a triangle, x, y
   Random random(17);
   for (int trial = 0; trial < 300; ++trial) {
     std::set<Hit> in_truth, in_drawn, missing, extra;

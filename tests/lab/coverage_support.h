@@ -106,7 +106,8 @@ inline const Picture& picture_of(std::string_view name) {
   static std::map<std::string_view, std::unique_ptr<Picture>> pictures;
   auto& slot = pictures[name];
   if (!slot) {
-    const lab::CoverageCase& c = lab::find_coverage_case(name);
+    const lab::CoverageCase& c =
+        find_named("coverage case", name, lab::coverage_cases(), &lab::CoverageCase::name);
     slot = std::make_unique<Picture>(c.make(), lab::Window{c.size.width, c.size.height});
   }
   return *slot;
