@@ -15,7 +15,6 @@
 #include "support/console.h"
 #include "support/json.h"
 #include "support/options.h"
-#include "support/printable.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {

@@ -16,7 +16,6 @@
 #include "support/json.h"
 #include "support/options.h"
 #include "support/output_path.h"
-#include "support/printable.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {

@@ -13,8 +13,8 @@
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
 #include "lab/cases/to_stream.h"
+#include "support/console.h"
 #include "support/milliseconds.h"
-#include "support/printable.h"
 
 namespace edgewise::viewer {
 
