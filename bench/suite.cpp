@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "bench/workloads/laboratory.h"
+#include "support/console.h"
 #include "support/options.h"
-#include "support/printable.h"
 
 namespace edgewise::bench {
 

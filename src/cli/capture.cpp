@@ -15,7 +15,6 @@
 #include "support/console.h"
 #include "support/options.h"
 #include "support/output_path.h"
-#include "support/printable.h"
 
 namespace edgewise::tools {
 

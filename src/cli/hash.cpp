@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,7 +15,6 @@
 #include "support/console.h"
 #include "support/json.h"
 #include "support/options.h"
-#include "support/printable.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {

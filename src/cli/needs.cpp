@@ -8,7 +8,6 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 
 #include "cli/commands.h"
@@ -16,7 +15,6 @@
 #include "support/console.h"
 #include "support/json.h"
 #include "support/options.h"
-#include "support/printable.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {

@@ -3,13 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "cli/commands.h"
 #include "edgewise/draw.h"
@@ -19,7 +16,6 @@
 #include "support/json.h"
 #include "support/options.h"
 #include "support/output_path.h"
-#include "support/printable.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {

@@ -18,7 +18,6 @@
 #include "support/json.h"
 #include "support/options.h"
 #include "support/output_path.h"
-#include "support/printable.h"
 #include "support/progress.h"
 #include "viewer/demos.h"
 #include "viewer/panel/panel.h"

@@ -1,11 +1,9 @@
 #include "core/numbers.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <locale>
 #include <sstream>
-#include <string>
 
 namespace edgewise {
 

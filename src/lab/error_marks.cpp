@@ -1,8 +1,5 @@
 #include "lab/error_marks.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "edgewise/screen_triangle.h"
 
 namespace edgewise::lab {

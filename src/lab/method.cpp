@@ -16,13 +16,6 @@ namespace {
 constexpr std::array<std::string_view, kFamilies.size()> kNames{"coverage", "visibility", "facing",
                                                                 "clipping", "projection"};
 
-template <typename Methods>
-std::vector<MethodInfo> infos(const Methods& methods) {
-  std::vector<MethodInfo> list;
-  for (const auto& method : methods) list.push_back(method.info);
-  return list;
-}
-
 }  // namespace
 
 std::string_view name_of(Family family) {
@@ -37,15 +30,15 @@ Family find_family(std::string_view name) {
 std::vector<MethodInfo> methods_of(Family family) {
   switch (family) {
     case Family::coverage:
-      return infos(coverage_methods());
+      return infos_of(coverage_methods());
     case Family::visibility:
-      return infos(visibility_methods());
+      return infos_of(visibility_methods());
     case Family::facing:
-      return infos(facing_methods());
+      return infos_of(facing_methods());
     case Family::clipping:
-      return infos(clipping_methods());
+      return infos_of(clipping_methods());
     case Family::projection:
-      return infos(projection_methods());
+      return infos_of(projection_methods());
   }
   throw std::invalid_argument("not a family");
 }

@@ -22,6 +22,13 @@ struct MethodInfo {
   bool exact;                // no errors against the snapped truth
 };
 
+template <typename Methods>
+std::vector<MethodInfo> infos_of(const Methods& methods) {
+  std::vector<MethodInfo> list;
+  for (const auto& method : methods) list.push_back(method.info);
+  return list;
+}
+
 // Whether culling keeps a triangle whose area has this sign: 1 clockwise on the screen, the front.
 constexpr bool keeps(Cull cull, int facing) {
   return cull == Cull::none || (cull == Cull::back && facing > 0) || (cull == Cull::front && facing < 0);
@@ -35,13 +42,6 @@ struct Size {
 struct FloatTriangle {
   UnsnappedTriangle at;
   std::uint32_t payload;
-};
-
-// One pixel that a method drew for one triangle. It may lie outside the image, which counts as an error.
-struct Hit {
-  std::uint32_t triangle;  // index
-  std::int32_t x, y;
-  auto operator<=>(const Hit&) const = default;
 };
 
 // Rule of three: if n trials show no error, the rate is below 3 / n with 95 % confidence.

@@ -1,6 +1,8 @@
-// Standard output and error. Writing throws nothing; errors are checked once at the end.
+// Standard output and error, and text that is safe to print there. Writing throws nothing; errors are checked
+// once at the end.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace edgewise::tools {
@@ -26,5 +28,12 @@ bool moves_cursor(int descriptor);
 
 // The terminal's columns; 80 if the file descriptor is not a terminal.
 int terminal_width(int descriptor = 1);
+
+// For external text: file and scene names, and messages that quote them.
+// Returns valid UTF-8 without control characters: replaces each control character and each invalid byte.
+std::string printable(std::string_view text, char replacement = '?');
+
+// The same, cut to a number of characters; a cut text ends in "..". Characters are never split.
+std::string printable_within(std::string_view text, std::size_t columns);
 
 }  // namespace edgewise::tools

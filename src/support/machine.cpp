@@ -14,7 +14,6 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
-#include <vector>
 
 #include "edgewise/simd_target.h"
 #include "support/cores.h"

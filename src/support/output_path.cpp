@@ -18,7 +18,6 @@
 #include "files/atomic_file.h"
 #include "support/console.h"
 #include "support/options.h"
-#include "support/printable.h"
 #include "support/source.h"
 
 namespace edgewise::tools {

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "support/console.h"
-#include "support/printable.h"
 
 namespace edgewise::tools {
 

@@ -13,8 +13,8 @@
 #include "edgewise/tri_file.h"
 #include "files/atomic_file.h"
 #include "lab/cases/to_stream.h"
+#include "support/console.h"
 #include "support/milliseconds.h"
-#include "support/printable.h"
 
 namespace edgewise::viewer {
 
@@ -210,35 +210,17 @@ void Session::act(Command command) {
 void Session::switch_by(Command command, int step) {
   Side& side = sides_[state_.active];
   lab::StageMethods& choice = side.choice;
-  switch (command) {
-    case Command::coverage:
-      step_method(lab::drawing_methods(), choice.coverage, step);
-      break;
-    case Command::edges:
-      switch_edges(side);
-      break;
-    case Command::clipping:
-      step_method(lab::clipping_methods(), choice.clipping, step);
-      break;
-    case Command::visibility:
-      step_method(lab::visibility_methods(), choice.visibility, step);
-      break;
-    case Command::facing:
-      step_method(lab::facing_methods(), choice.facing, step);
-      break;
-    case Command::cull_front:
-      side.cull_front = !side.cull_front;
-      break;
-    case Command::cull_back:
-      side.cull_back = !side.cull_back;
-      break;
-    case Command::light:
-      state_.lit = !state_.lit;
-      break;
-    default:
-      return;
-  }
-  reset_results();
+  const std::pair<Command, std::function<void()>> kSwitches[] = {
+      {Command::coverage, [&] { step_method(lab::drawing_methods(), choice.coverage, step); }},
+      {Command::edges, [&] { switch_edges(side); }},
+      {Command::clipping, [&] { step_method(lab::clipping_methods(), choice.clipping, step); }},
+      {Command::visibility, [&] { step_method(lab::visibility_methods(), choice.visibility, step); }},
+      {Command::facing, [&] { step_method(lab::facing_methods(), choice.facing, step); }},
+      {Command::cull_front, [&] { side.cull_front = !side.cull_front; }},
+      {Command::cull_back, [&] { side.cull_back = !side.cull_back; }},
+      {Command::light, [&] { state_.lit = !state_.lit; }}};
+  for (const auto& [wanted, action] : kSwitches)
+    if (command == wanted) action(), reset_results();
 }
 
 void Session::choose(std::string_view method) {

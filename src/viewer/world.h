@@ -1,7 +1,6 @@
 // The viewer's scene or stream; a scene's camera can be moved and its objects rotated.
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 

@@ -26,10 +26,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise needs cube --frames 2 --orbit 2", 2, "--frames and --orbit cannot be combined"},
     {"edgewise needs grid64 --orbit 2", 2, "'grid64' is a stream of triangles and has no camera"},
     {"edgewise needs $IN/good.obj --frames 2", 2, "does not move; use --orbit"},
-    {"edgewise needs cube --orbit 2 --at 0,0,0", 2, "--at, --yaw and --pitch cannot be given"},
     {"edgewise needs cube --orbit 2 --eye 0,0,0", 2, "the camera is at the centre of 'cube'"},
-    {"edgewise render cube --subpixel-bits 3 -o $DIR/a.png", 2,
-     "--subpixel-bits: '3' is not a whole number from 4 to 15"},
     {"edgewise verify --random --subpixel-bits 8", 2, "--subpixel-bits"},
     {"edgewise render cube -o - --format jpg", 2, "unknown format 'jpg'; did you mean 'png'"},
     {"edgewise render cube -o $DIR/a.png --format ppm", 2, "with --format ppm the name must end in .ppm"},
@@ -52,13 +49,10 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise view --terminal </dev/null", 2, "needs a terminal"},
     {"edgewise demo p5-clipping", 2, "unknown tutorial 'p5-clipping'; did you mean 'p5js-clipping'"},
     {"edgewise demo -o $DIR/a.png", 2, "no TUTORIAL is named"},
-    {"edgewise demo outlaw-triad pico8-culling --view", 2, "one TUTORIAL"},
-    {"edgewise demo outlaw-triad -o ''", 2, "the file name is empty"},
     {"edgewise demo outlaw-triad pico8-culling -o $DIR/a.png", 2, "several scenes need a folder"},
     {"edgewise demo outlaw-triad --frames 3", 2, "--frames needs --output"},
 
     // ---- Values of options: invalid or out of range. support_test.cpp has more of each form.
-    {"edgewise render cube --size 0x0 -o $DIR/a.png", 2, "--size: '0x0' is not"},
     {"edgewise render cube --threads 257 -o $DIR/a.png", 2, "1 to 256"},
     {"edgewise render cube --tile 8 -o $DIR/a.png", 2, "--tile: '8' is not 16, 32 or 64"},
     {"edgewise render cube --near 5 --far 4 -o $DIR/a.png", 2, "near"},
@@ -67,7 +61,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise render cube --scale 2 -o $DIR/a.png", 2, "--scale"},
     {"edgewise render micro --scale 900 -o $DIR/a.png", 2, "10^8"},
     {"edgewise render large --fov 50 -o $DIR/a.png", 2, "no camera"},
-    {"edgewise verify --random --for 20", 2, "'20' is not a duration such as 90s, 20m or 2h"},
     {"edgewise verify --random --shard 3", 2, "'3' is not I/N"},
     {"edgewise verify --random --case 5 --shard 0/2", 2, "--shard excludes --case"},
     {"edgewise accuracy drtk_quad --method painter_mean --json $DIR/a.json", 2, "nothing to do"},
@@ -103,7 +96,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "/dev/stdin: is neither a regular file, a pipe nor a terminal"},
     {"cat $IN/index.obj | edgewise render - -o $DIR/a.png", 2,
      "/dev/stdin: line 4: a face names vertex 9 of 3"},
-    {"edgewise diff '' $IN/small.ppm", 2, ": No such file or directory"},
     {"edgewise diff - - <$IN/small.ppm", 2, "only one of A, B and --mask can be standard input"},
 
     // ---- Two outputs that are one file, and outputs that are inputs
@@ -114,8 +106,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"printf older >$DIR/older.png; ln $DIR/older.png $IN/a.png;"
      "edgewise portable cube --picture $IN/a.png -o $DIR/older.png",
      2, "would write the same file", "older.png"},
-    {"ln -s $IN/a-0002.png $IN/a-0001.png; edgewise render cube --frames 2 -o $IN/a.png", 2,
-     "two pictures would be written to "},
     {"edgewise render cube -o - --depth -", 2, "--output and --depth would write the same file"},
     {"edgewise view cube --keys p --save-to $IN -o $IN/cube-0001.png", 2, "would write the same file"},
     {"ln -s good.obj $IN/a.png; edgewise render $IN/good.obj -o $IN/a.png", 2, "would overwrite the input"},
@@ -152,11 +142,8 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "$DIR)/older.png",
      2, "would overwrite the input", "older.png"},
     {"edgewise render cube -o $DIR/no/a.png", 2, "/no/a.png: cannot be written: there is no folder "},
-    {"edgewise render cube -o /dev/full/a.png", 2, "/dev/full/a.png: cannot be written: Not a directory"},
     {"edgewise render cube -o $DIR/$(head -c 300 /dev/zero | tr '\\0' x).png", 2, "File name too long"},
     {"edgewise accuracy drtk_quad --pictures /dev/null/x --json $DIR/a.json", 2, "not a folder"},
-    {"chmod 555 $DIR; unprivileged edgewise render cube -o $DIR/a.png", 2,
-     "cannot be written: Permission denied"},
     {"printf older >$DIR/older.png; chmod 444 $DIR/older.png; chmod 777 $DIR;"
      "unprivileged edgewise render cube -o $DIR/older.png",
      2, "Permission denied", "older.png"},
@@ -176,7 +163,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise list >&-", 2, "cannot write to standard output"},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm >&-", 2, "cannot write to standard output", "a.ppm"},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm --depth /none/a.pfm 0<&- >&- 2>&-", 2, ""},
-    {"edgewise render cube --size 33x21 -o $DIR/a.ppm 0<&- >&- 2>&-", 2, "", "a.ppm"},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm 0<&- 2>&-", 0, "", "a.ppm"},
     {"{ bench $SHORT --benchmark_out=$DIR/a.json; echo $? >$IN/status; } | true; exit $(cat $IN/status)", 0,
      "", "a.json"},
@@ -190,7 +176,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     // ---- Signals
     {"stopped INT edgewise verify --full --json $DIR/a.json", 130, ""},
     {"stopped TERM edgewise verify --full --json $DIR/a.json", 143, ""},
-    {"stopped KILL edgewise verify --full --json $DIR/a.json", 137, ""},
     {"stopped INT edgewise accuracy --json $DIR/a.json --pictures $DIR/errors", 130, ""},
     // Random pictures are counted until the signal.
     {"stopped INT edgewise verify --random --json $DIR/a.json", 130, "", "a.json"},

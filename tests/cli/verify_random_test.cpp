@@ -316,22 +316,6 @@ TEST(RandomFindings, AnExceptionNamesTheCase) {
   EXPECT_TRUE(said.ends_with("): too much")) << said;
 }
 
-TEST(GuardedFrame, CountsWordsWrittenOutsideThePicture) {
-  for (const lab::GuardedFrame::Layout layout : {lab::GuardedFrame::Layout{0, 0}, {3, 5}, {40, 15}}) {
-    lab::GuardedFrame frame(5, 4, layout);
-    const FrameView view = frame.view();
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.depth) / 4 % 16, static_cast<unsigned>(layout.offset));
-    for (int y = 0; y < 4; ++y) std::fill_n(view.depth + y * view.stride, 5, 1u);
-    EXPECT_EQ(frame.written_outside(), 0u);
-    view.depth[-1] = 0;
-    view.payload[3 * view.stride + 5] = 0;
-    EXPECT_EQ(frame.written_outside(), 2u);
-    if (layout.padding > 0) view.payload[5] = 0;
-    EXPECT_EQ(frame.written_outside(), layout.padding > 0 ? 3u : 2u);
-    EXPECT_EQ(frame.copy().depth_row(3)[4], 1u);
-  }
-}
-
 TEST(VerifyRandomProgram, WritesALineOnStdoutAndAcceptsTheCasesOfTheMostShards) {
   const auto outcome = run_program(EDGEWISE_PROGRAM, "verify --random --seed 7 --case 123456 --json -");
   EXPECT_EQ(std::ranges::count(outcome.out, '\n'), 1) << outcome.err;

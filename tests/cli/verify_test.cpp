@@ -55,15 +55,11 @@ VerifyPlan small_plan(std::vector<std::string> scenes, const BackendInfo& second
   return plan;
 }
 
-VerifyReport verify_quietly(const VerifyPlan& plan) {
-  return verify(plan, {});
-}
-
 TEST(Verify, FindsOneBitAndShowsIt) {
   const TempDir folder;
   VerifyPlan plan = small_plan({"cube"}, testing::wrong_backend<OneBitOff>());
   plan.failure_folder = folder.path() / "failures";
-  const VerifyReport report = verify_quietly(plan);
+  const VerifyReport report = verify(plan, {});
   EXPECT_FALSE(report.ok());
   const SceneVerdict& verdict = report.scenes.at(0);
   EXPECT_EQ(verdict.differing_pixels, verdict.configurations / 2);  // one per frame of the wrong backend
@@ -92,8 +88,8 @@ TEST(Verify, FindsOneBitAndShowsIt) {
 }
 
 TEST(Verify, FindsAMissingBackgroundAndAnErrorInASingleConfiguration) {
-  EXPECT_FALSE(verify_quietly(small_plan({"cube"}, testing::wrong_backend<ForgetsBackground>())).ok());
-  const VerifyReport report = verify_quietly(small_plan({"cube"}, testing::wrong_backend<WrongOnThreads>()));
+  EXPECT_FALSE(verify(small_plan({"cube"}, testing::wrong_backend<ForgetsBackground>()), {}).ok());
+  const VerifyReport report = verify(small_plan({"cube"}, testing::wrong_backend<WrongOnThreads>()), {});
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.scenes[0].mismatches[0].drawn.how.execution.threads, 3);
   EXPECT_EQ(report.scenes[0].mismatches[0].frontend.payload, Payload::id);
@@ -101,7 +97,7 @@ TEST(Verify, FindsAMissingBackgroundAndAnErrorInASingleConfiguration) {
 
 TEST(Verify, FindsAnErrorInWholeFramesAlone) {
   const VerifyReport report =
-      verify_quietly(small_plan({"large"}, testing::wrong_backend<testing::IgnoresSources>()));
+      verify(small_plan({"large"}, testing::wrong_backend<testing::IgnoresSources>()), {});
   const SceneVerdict& verdict = report.scenes.at(0);
   EXPECT_GT(verdict.differing_pixels, 0u);
   ASSERT_EQ(verdict.mismatches.size(), 1u);
@@ -111,7 +107,7 @@ TEST(Verify, FindsAnErrorInWholeFramesAlone) {
 
 TEST(Verify, FindsWritesOutsideTheImage) {
   const VerifyReport report =
-      verify_quietly(small_plan({"cube"}, testing::wrong_backend<WritesBesideTheImage>()));
+      verify(small_plan({"cube"}, testing::wrong_backend<WritesBesideTheImage>()), {});
   ASSERT_FALSE(report.ok());
   const SceneVerdict& verdict = report.scenes[0];
   EXPECT_EQ(verdict.differing_pixels, 0u);
@@ -122,7 +118,7 @@ TEST(Verify, FindsWritesOutsideTheImage) {
 }
 
 TEST(Verify, FindsGapsInAGrid) {
-  const VerifyReport report = verify_quietly(small_plan({"grid4"}, testing::wrong_backend<LeavesGaps>()));
+  const VerifyReport report = verify(small_plan({"grid4"}, testing::wrong_backend<LeavesGaps>()), {});
   const auto& hits = report.scenes.at(0).hits;
   ASSERT_EQ(hits.size(), 2u);
   EXPECT_EQ(hits[0].not_once, 0u);
@@ -132,7 +128,7 @@ TEST(Verify, FindsGapsInAGrid) {
 TEST(Verify, KeepsFindingsIfPicturesCannotBeWritten) {
   VerifyPlan plan = small_plan({"cube"}, testing::wrong_backend<OneBitOff>());
   plan.failure_folder = "/dev/null/failures";
-  const VerifyReport report = verify_quietly(plan);
+  const VerifyReport report = verify(plan, {});
   ASSERT_FALSE(report.ok());
   EXPECT_NE(report.scenes[0].mismatches.at(0).file_error, "");
 }
@@ -147,7 +143,7 @@ TEST(Verify, ComparesSmallStreamsWithTheOracleAtFullSize) {
       std::ofstream out(path, std::ios::binary);
       write_tri(out, stream);
     }
-    const SceneVerdict verdict = verify_quietly(small_plan({path.string()}, backends()[1])).scenes.at(0);
+    const SceneVerdict verdict = verify(small_plan({path.string()}, backends()[1]), {}).scenes.at(0);
     EXPECT_EQ(verdict.oracle_width == 90 && verdict.oracle_height == 70, count == 1) << count;
     EXPECT_TRUE(verdict.ok());
   }

@@ -225,7 +225,8 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheCameraAreClippedCorrectly
     const Scene scene = seen({t.begin(), t.end()}, {{0, 1, 2}});
     const Outline outline({homogeneous(scene, t[0]), homogeneous(scene, t[1]), homogeneous(scene, t[2])});
     // If both ends of an edge are this far off the screen, floats no longer position its middle to 1/64 px.
-    if (outline.reaches_beyond(lab::kCameraReachPx)) continue;
+    // The camera's matrix, products and sums round a vertex before, which this allows 8 ulps.
+    if (outline.reaches_beyond(lab::kReachPx / 8)) continue;
     ++used;
     ++behind[std::count_if(t.begin(), t.end(), [](glm::vec3 v) { return v.z > -0.5f; })];
     expect_outline(scene, {kSize.width, kSize.height}, outline, "trial " + std::to_string(trial));

@@ -8,7 +8,7 @@
 
 #include "cli/basic/run.h"
 #include "fuzz.h"
-#include "support/printable.h"
+#include "support/console.h"
 
 using namespace edgewise;
 

@@ -1,15 +1,17 @@
-// Coverage scores of runs with known results, and the functions from which scores are computed.
+// Coverage scores of runs with known results, the functions from which scores are computed, and visible
+// triangles of coverage methods, checked by hand and by rule 6.
 #include <gtest/gtest.h>
 
 #include <set>
+#include <tuple>
 
 #include "lab/coverage/pixel_changes.h"
+#include "lab/coverage/visible.h"
 #include "lab/coverage_support.h"
 
 namespace edgewise::lab {
 namespace {
 
-using testing::adversarial;
 using testing::Picture;
 
 // A triangle of 15 pixels and one of a single pixel in a 5 x 5 window at (10, 20). The expected scores are
@@ -62,6 +64,7 @@ TEST(Crossings, AreTheLargerOfSampleRowsAndColumns) {
 }
 
 TEST(Differences, AreHitsOfOnlyOneList) {
+  using Hit = std::tuple<std::uint32_t, int, int>;  // a triangle, x, y
   Random random(17);
   for (int trial = 0; trial < 300; ++trial) {
     std::set<Hit> in_truth, in_drawn, missing, extra;
@@ -105,23 +108,30 @@ TEST(PixelChanges, AreSuperfluousIfThePixelChangesOftenerAndNotOnlyEarlierOrLate
   EXPECT_EQ(beyond({1, 1, 2, 2}, {1, 2, 1, 2}), 2u);
 }
 
-TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
-  constexpr int kWidth = 80, kHeight = 60;
-  const auto triangles = adversarial("cloud", 400, kWidth, kHeight, 15);
-  std::set<std::uint32_t> seen;
-  const auto groups = disjoint_sets(triangles, kWidth, kHeight);
-  EXPECT_LT(groups.size(), triangles.size() / 2);
-  for (const auto& group : groups) {
-    std::set<std::pair<int, int>> used;
-    for (const std::uint32_t i : group) {
-      EXPECT_TRUE(seen.insert(i).second);
-      const auto box = contract::pixel_box(triangles[i], kWidth, kHeight);
-      for (int y = box.y0; y < box.y1; ++y)
-        for (int x = box.x0; x < box.x1; ++x) EXPECT_TRUE(used.insert({x, y}).second);
-    }
+VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
+  return VisibleTriangleJudge({{picture.window.width, picture.window.height}, picture.floats, picture.grid},
+                              picture.cracks.surface(), 2)
+      .score(testing::find_coverage_method(method));
+}
+
+TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
+  const Picture& quad = testing::picture_of("drtk_quad");
+  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_source, 6u) << "the diagonal is not drawn";
+  EXPECT_EQ(visible_triangles_of("float_le", quad).wrong_source, 6u)
+      << "the first triangle draws the diagonal, which belongs to the second";
+  EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
+}
+
+// Intersecting triangles: if two depths differ by less than the error of rule 6, the wrong triangle may be
+// visible.
+TEST(CoverageVisibleTriangles, OfBackendsErrOnlyWithinTheDepthErrorOfRuleSix) {
+  for (const auto family : testing::kFamilies) {
+    const auto grid = testing::adversarial(family, 150, 120, 90, 8);
+    const Picture picture(testing::as_floats(grid), {120, 90});
+    for (const auto& backend : backends())
+      EXPECT_EQ(visible_triangles_of(backend.name, picture).unexplained, 0u)
+          << backend.name << " in " << family;
   }
-  for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    EXPECT_EQ(seen.count(i) == 0, contract::pixel_box(triangles[i], kWidth, kHeight).empty());
 }
 
 }  // namespace

@@ -106,7 +106,8 @@ inline const Picture& picture_of(std::string_view name) {
   static std::map<std::string_view, std::unique_ptr<Picture>> pictures;
   auto& slot = pictures[name];
   if (!slot) {
-    const lab::CoverageCase& c = lab::find_coverage_case(name);
+    const lab::CoverageCase& c =
+        find_named("coverage case", name, lab::coverage_cases(), &lab::CoverageCase::name);
     slot = std::make_unique<Picture>(c.make(), lab::Window{c.size.width, c.size.height});
   }
   return *slot;
@@ -114,10 +115,6 @@ inline const Picture& picture_of(std::string_view name) {
 
 inline lab::DrawnRuns drawn_by(const lab::CoverageMethod& method, const Picture& picture) {
   return {method, picture.input, picture.window};
-}
-inline lab::CoverageScore against_floats(std::string_view method, const Picture& picture) {
-  return lab::score_coverage(picture.by_floats, drawn_by(find_coverage_method(method), picture),
-                             picture.floats);
 }
 inline lab::Cracks cracks_of(const lab::CoverageMethod& method, const Picture& picture) {
   return picture.cracks.find(drawn_by(method, picture), method.promise.snap_bits);

@@ -178,15 +178,6 @@ TEST(Cracks, AreNoneBetweenSurfacesNearOneAnother) {
   }
 }
 
-// The corners of the square lie on samples. Those that "<" rejects on the outline are no gaps.
-TEST(Cracks, LieBetweenNeighboursAndNotOnTheOutline) {
-  const Picture square(
-      {triangle(1.5f, 1.5f, 5.5f, 1.5f, 5.5f, 5.5f), triangle(1.5f, 1.5f, 5.5f, 5.5f, 1.5f, 5.5f)}, {8, 8});
-  EXPECT_EQ(testing::against_floats("float_lt", square).missing, 3u + 7u)
-      << "the diagonal, the top edge and the left one";
-  EXPECT_EQ(cracks_of("float_lt", square).gaps, (std::vector<Sample>{{2, 2}, {3, 3}, {4, 4}}));
-}
-
 // A sample that one triangle loses to its neighbour is wrong, but no crack.
 TEST(Cracks, AreWhereNeitherOrBothDraw) {
   const Picture picture(quad(), kWindow);

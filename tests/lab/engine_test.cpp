@@ -20,8 +20,8 @@ constexpr EngineArithmetic kArithmetics[] = {EngineArithmetic::exact,   EngineAr
                                              EngineArithmetic::int32,   EngineArithmetic::float32_rebased};
 
 Framebuffer engine_picture(EngineArithmetic numbers, std::span<const ScreenTriangle> triangles,
-                           const Execution& execution, Window window = kWindow) {
-  Framebuffer frame(window.width, window.height);
+                           const Execution& execution) {
+  Framebuffer frame(kWindow.width, kWindow.height);
   make_engine(numbers)->draw(triangles, frame.view(), {kBackground}, execution);
   return frame;
 }
@@ -74,19 +74,6 @@ TEST(Engine, DrawsTheSamePictureOnEveryTargetAndNumberOfThreads) {
               << static_cast<int>(numbers) << " " << family << " " << name_of(target) << " " << threads
               << " threads";
     }
-}
-
-TEST(Engine, OverflowsWhereItSaysSo) {
-  for (const auto& [side_px, wraps] : {std::pair{178, false}, {190, true}}) {
-    const auto end = static_cast<float>(side_px) + 2;
-    const auto grid = snapped(std::vector<FloatTriangle>{{{{3, end, 3}, {3, 3, end}, {0, 0, 0}}, 1},
-                                                         {{{end, end, 3}, {3, end, end}, {0, 0, 0}}, 1}});
-    const auto drawn = [&](EngineArithmetic numbers) {
-      return engine_picture(numbers, grid, {}, {side_px + 20, side_px + 20});
-    };
-    EXPECT_EQ(compare(drawn(EngineArithmetic::int32), drawn(EngineArithmetic::exact)).pixels != 0, wraps)
-        << side_px;
-  }
 }
 
 }  // namespace

@@ -116,33 +116,6 @@ StreamTriangle wall(float z) {
   return triangle({-100, -100, z}, {300, -100, z}, {-100, 300, z});
 }
 
-TEST(Needs, FindsExactlyTheDepthBitsThatASceneNeeds) {
-  Random random(2);
-  for (int i = 0; i < scenes_to_try(1500); ++i) {
-    const float near_z = random.uniform(0.01f, 0.9f);
-    const float scale = random.uniform(0.5f, 1.0f);
-    const float far_z = near_z + std::ldexp(scale, -between(random, 2, 22));
-    if (near_z == far_z) continue;
-    // The nearer wall is drawn later, so it stays invisible if both get the same depth.
-    const Needs needs = studied(stream_of({wall(far_z), wall(near_z)}));
-    // All larger numbers of bits are enough, too; some smaller one may be by chance.
-    int bits = 1;
-    for (int fewer = 1; fewer <= 30; ++fewer) {
-      const auto stored = [&](float z) { return std::floor(double{z} * (std::ldexp(1.0, fewer) - 1) + 0.5); };
-      if (stored(near_z) >= stored(far_z)) bits = fewer + 1;
-    }
-    const Curve depths = curve_of(needs, kDepth);
-    for (int more = bits; more <= 30; ++more)
-      ASSERT_TRUE(named(depths.levels, bits_name(more)).enough()) << near_z << ' ' << far_z;
-    ASSERT_EQ(enough(needs, kVisibility), "submission_order");
-    if (bits == 1) continue;
-    const auto& witness = depths.levels[static_cast<std::size_t>(bits) - 2].witness;
-    ASSERT_TRUE(witness);
-    EXPECT_EQ(witness->right, std::vector<std::uint32_t>{1});
-    EXPECT_NE(witness->drawn, std::vector<std::uint32_t>{1});
-  }
-}
-
 // One triangle and a camera at the origin that looks along -z.
 Scene scene_of(std::vector<glm::vec3> corners) {
   Scene scene;

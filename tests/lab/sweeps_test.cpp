@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/stability/report.h"
 #include "lab/sweeps/sweeps.h"
@@ -14,8 +13,8 @@
 namespace edgewise::lab {
 namespace {
 
-SweepResult swept(std::string_view name, int threads = 2) {
-  return run_sweep(find_sweep(name), kQuick, threads);
+SweepResult swept(std::string_view name) {
+  return run_sweep(find_sweep(name), kQuick, 2);
 }
 
 // A sweep's results for one method.
@@ -76,23 +75,6 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EverySweep, ::testing::ValuesIn(sweep_names()),
                          [](const auto& param) { return std::string(param.param); });
-
-TEST(Sweeps, StartToFailWhereErrorsExceedTheTolerance) {
-  Sweep sweep{};
-  sweep.positions = {8, 4, 2};
-  SweepResult result{&sweep, std::vector<Measured>(3, Measured(3))};
-  result.at[1].methods[1] = {6, 50'000};
-  result.at[2].methods[1] = {9, 50'000};
-  for (Measured& measured : result.at) measured.methods[2] = {5, 50'000};
-  EXPECT_EQ(result.starts_to_fail(0), std::nullopt);
-  EXPECT_EQ(result.starts_to_fail(1), 4);
-  EXPECT_EQ(result.starts_to_fail(2), std::nullopt);
-}
-
-TEST(Sweeps, PositionsAreTheNearestDoublesToTheirDecimals) {
-  EXPECT_EQ(decades(-2, 0), (std::vector<double>{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1}));
-  EXPECT_EQ(powers_of_two(1, -1), (std::vector<double>{2, 1, 0.5}));
-}
 
 TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   const SweepResult legs = swept("legs_on_our_grid");
@@ -175,16 +157,6 @@ TEST(FacingSweeps, SnappingFlipsFacesOneSubUnitThinAndFloatsMuchThinnerOnes) {
   EXPECT_GT(floats.at(edge_on.sweep->positions.back()).errors, 0u);
   EXPECT_EQ(Found(edge_on, "snapped_area_15").at(snapped).errors, 0u);
   EXPECT_LT(Found(edge_on, "snapped_area_15").start().value(), snapped / 16);
-}
-
-TEST(ClippingSweeps, OnlyAMatrixOfFloatsDependsOnWhereTheOriginLies) {
-  const SweepResult origin = swept("origin");
-  const auto errors = [&](double away) { return Found(origin, "matrix_float").at(away).errors; };
-  EXPECT_EQ(errors(20), errors(1));
-  EXPECT_GT(errors(20'000), errors(1));
-  EXPECT_GT(Found(origin, "matrix_float").at(1e8).rate(), 0.5);
-  for (const auto method : {"near_guard", "matrix_relative", "screen_edges"})
-    EXPECT_EQ(Found(origin, method).at(1), Found(origin, method).at(1e8)) << method;
 }
 
 }  // namespace

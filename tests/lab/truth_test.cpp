@@ -47,22 +47,6 @@ TEST(FloatTruth, AgreesWithRationalArithmetic) {
   EXPECT_GT(covered, 10'000);
 }
 
-TEST(FloatTruth, AgreesWithTheSnappedTruthOnTheGrid) {
-  constexpr int kWidth = 50, kHeight = 40;
-  for (const auto family : testing::kFamilies) {
-    const auto triangles = adversarial(family, 100, kWidth, kHeight, 8);
-    const auto floats = testing::as_floats(triangles);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const SnappedTruth by_integers(triangles[i]);
-      const FloatTruth by_floats(floats[i].at);
-      ASSERT_EQ(by_integers.facing(), by_floats.facing()) << family << " triangle " << i;
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
-          ASSERT_EQ(by_integers.covers(x, y), by_floats.covers(x, y)) << family << " triangle " << i;
-    }
-  }
-}
-
 FloatTruth truth_of(const FloatTriangle& t) {
   return FloatTruth(t.at);
 }

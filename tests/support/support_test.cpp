@@ -12,11 +12,11 @@
 #include <thread>
 
 #include "run_program.h"
+#include "support/console.h"
 #include "support/cores.h"
 #include "support/json.h"
 #include "support/machine.h"
 #include "support/options.h"
-#include "support/printable.h"
 #include "support/process.h"
 
 namespace edgewise::tools {

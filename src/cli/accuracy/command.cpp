@@ -95,8 +95,7 @@ Action add_accuracy(CLI::App& command) {
       ->allow_extra_args(false)
       ->delimiter(',')
       ->type_name("NAME");
-  command.add_flag("--peers", o->plan.peers,
-                   "Measure other projects' rasterizers in the scene choice");
+  command.add_flag("--peers", o->plan.peers, "Measure other projects' rasterizers in the scene choice");
   add_integer(command, "--subpixel-bits", o->plan.subpixel_bits, kMinSubpixelBits, kMaxSubpixelBits,
               "Of positions that our backends get in the coverage family (8)");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");

@@ -1,11 +1,14 @@
 // Moving pictures: counts cracks and wrong pixels in each frame of the tutorials' rotating cube, and the
-// superfluous changes of pixels while a scene turns or the camera pans.
+// superfluous changes of pixels while a scene turns or the camera pans. And the chart for choosing a method:
+// counts the wrong pixels and holes of its frames.
 #include <algorithm>
+#include <mutex>
 
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
 #include "lab/cases/backend_comparison.h"
+#include "lab/choice/choice.h"
 #include "lab/coverage/pixel_changes.h"
 #include "lab/projection/truth.h"
 
@@ -49,6 +52,13 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores, int
       lab::CrackJudge(scene.floats, source.floats()).find(drawn, scene.snap_bits(method));
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
                  mark_coverage(source.truth(), source.of_sources(drawn), cracks, source.source()));
+}
+
+void add(ChoiceTotal& total, const lab::ChoiceCounts& counts) {
+  total.least = std::min(total.least, counts.wrong);
+  total.most = std::max(total.most, counts.wrong);
+  total.wrong += counts.wrong;
+  total.holes += counts.holes;
 }
 
 }  // namespace
@@ -113,6 +123,37 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
     MotionResult& result = results.emplace_back(MotionResult{std::string(name), frames, truth.sum(), {}});
     for (std::size_t i = 0; i < judged.size(); ++i)
       result.superfluous.emplace_back(judged[i]->info.name, changes[i].beyond(truth));
+  }
+  return results;
+}
+
+std::vector<ChoiceResult> judge_choices(const AccuracyPlan& plan, const ChosenMethods& chosen) {
+  const auto methods = lab::choice_methods(chosen.coverage);
+  const auto scenes = lab::choice_scenes(plan.quick);
+  const bool one_thread = std::ranges::any_of(methods, [](const auto& m) { return m.method->one_thread; });
+  std::vector<ChoiceResult> results;
+  for (const lab::ChoiceScene& scene : scenes) {
+    ChoiceResult& result =
+        results.emplace_back(ChoiceResult{scene.name, scene.summary, scene.size, scene.frames});
+    for (const auto& method : methods) result.methods.emplace_back(method.name, ChoiceTotal());
+    std::mutex mutex;
+    parallel_for(one_thread ? 1 : plan.threads, scene.frames, [&](int frame) {
+      const Drawable drawable = scene.make(frame);
+      const lab::ChoiceJudge judge(drawable, scene.size, 1);
+      lab::FrameDrawer drawer(scene.size);
+      std::vector<lab::ChoiceCounts> counts;
+      for (const auto& method : methods) {
+        drawer.draw(drawable, method, Payload::id);
+        counts.push_back(judge.count(drawer.canvas().frame));
+      }
+      const auto projection = judge.of_float_projection(1);
+      const std::lock_guard lock(mutex);
+      for (std::size_t i = 0; i < methods.size(); ++i) add(result.methods[i].second, counts[i]);
+      if (projection) {
+        if (!result.float_projection) result.float_projection.emplace();
+        add(*result.float_projection, *projection);
+      }
+    });
   }
   return results;
 }

@@ -22,7 +22,6 @@
 #include "support/milliseconds.h"
 #include "support/options.h"
 #include "support/output_path.h"
-#include "support/printable.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {

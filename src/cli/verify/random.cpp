@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -21,7 +20,7 @@
 #include "lab/cases/random_cases.h"
 #include "lab/cases/to_stream.h"
 #include "lab/truth/oracle.h"
-#include "support/printable.h"
+#include "support/console.h"
 #include "support/process.h"
 
 namespace edgewise::randomized {

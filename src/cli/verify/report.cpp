@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/printable.h"
+#include "support/console.h"
 
 namespace edgewise::tools {
 

@@ -97,13 +97,4 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan);
 
 nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan);
 
-// The scene at the plan's size, scaled down, so that many configurations can be compared in little time.
-Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name);
-
-// The scene scaled down for the oracle: pixels times triangles stay within its budget.
-Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name);
-
-// Whether the scene is watertight over the whole image, so that each pixel is covered exactly once.
-bool covers_each_pixel_once(const Source& source);
-
 }  // namespace edgewise::tools

@@ -81,9 +81,6 @@ inline constexpr double kDepthTie01 = 0x1p-22;
 inline constexpr double kReachPx = 1 << 18;
 // The same for ours, which cuts edges in double. The bound is the largest that is tested.
 inline constexpr double kDoubleReachPx = double{1ULL << 40};
-// A camera rounds a vertex before any clipping: matrix, products, sums, and the scaling to pixels. This
-// allows it 8 ulps.
-inline constexpr double kCameraReachPx = kReachPx / 8;
 
 struct ClippingScore {
   std::uint64_t covered = 0;  // pixels covered in truth

@@ -12,38 +12,34 @@ namespace {
 
 // Sutherland and Hodgman's clipping at the screen's four edges, after near and far clipping and projection.
 //
-// Vertex holds x_px, y_px and the other values that are interpolated linearly on the screen.
-// project(clip_vertex) makes one, lerp(inside, outside, t) interpolates, and finish(vertex) converts it to
-// Projected.
-template <typename Project, typename Lerp, typename Finish>
-void draw_screen_clipped(const ClippingScene& scene, ClippingFrame& frame, Project&& project, Lerp&& lerp,
+// project(clip_vertex) makes a vertex whose values are interpolated linearly on the screen. Its z01 may hold
+// another value, from which finish(vertex) then makes the depth.
+template <typename Project, typename Finish>
+void draw_screen_clipped(const ClippingScene& scene, ClippingFrame& frame, Project&& project,
                          Finish&& finish) {
-  using Vertex = decltype(project(ClipVertex{}));
+  const auto between = [](const Projected& a, const Projected& b, float t) {
+    return Projected{a.x_px + t * (b.x_px - a.x_px), a.y_px + t * (b.y_px - a.y_px),
+                     a.z01 + t * (b.z01 - a.z01)};
+  };
   const auto width = static_cast<float>(scene.size.width), height = static_cast<float>(scene.size.height);
   draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t payload) {
     const auto sides = sides_of(triangle, frame.view);
     if (!sides) return;
     const auto in_front = frame.clipper.clip(triangle, *sides & (kNear | kFar), frame.view);
-    Vertex a[9], b[9];
+    Projected a[9], b[9];
     std::size_t count = in_front.size();
     std::transform(in_front.begin(), in_front.end(), a, project);
-    const auto against = [&](const Vertex* from, Vertex* to, auto&& distance) {
-      count = cut(std::span<const Vertex>(from, count), to, distance, lerp);
+    const auto against = [&](const Projected* from, Projected* to, auto&& distance) {
+      count = cut(std::span<const Projected>(from, count), to, distance, between);
     };
-    against(a, b, [](const Vertex& v) { return v.x_px; });
-    against(b, a, [&](const Vertex& v) { return width - v.x_px; });
-    against(a, b, [](const Vertex& v) { return v.y_px; });
-    against(b, a, [&](const Vertex& v) { return height - v.y_px; });
-    Projected polygon[9];
-    std::transform(a, a + count, polygon, finish);
-    emit(std::span<const Projected>(polygon, count), payload, scene.cull_back, frame);
+    against(a, b, [](const Projected& v) { return v.x_px; });
+    against(b, a, [&](const Projected& v) { return width - v.x_px; });
+    against(a, b, [](const Projected& v) { return v.y_px; });
+    against(b, a, [&](const Projected& v) { return height - v.y_px; });
+    std::transform(a, a + count, b, finish);
+    emit(std::span<const Projected>(b, count), payload, scene.cull_back, frame);
   });
 }
-
-// A vertex of screen_linear.
-struct AtDistance {
-  float x_px, y_px, w;
-};
 
 // Clipping as most renderers do it: one 4 x 4 matrix of floats maps positions to clip space, where a vertex
 // is inside for 0 <= z <= w. Far from the origin, the sums of its large products lose what distinguishes near
@@ -127,12 +123,8 @@ const std::array<ClippingMethod, 8> kMethods{{
       "changes long runs of pixels if they are nearly horizontal",
       false},
      [](const ClippingScene& scene, ClippingFrame& frame) {
-       const auto between = [](const Projected& a, const Projected& b, float t) {
-         return Projected{a.x_px + t * (b.x_px - a.x_px), a.y_px + t * (b.y_px - a.y_px),
-                          a.z01 + t * (b.z01 - a.z01)};
-       };
        const auto project = [&](const ClipVertex& v) { return divide(v, frame.view); };
-       draw_screen_clipped(scene, frame, project, between, [](const Projected& p) { return p; });
+       draw_screen_clipped(scene, frame, project, [](const Projected& p) { return p; });
      },
      0,
      kReachPx / 2},
@@ -148,14 +140,10 @@ const std::array<ClippingMethod, 8> kMethods{{
        const float depth_scale = far_z / (far_z - near_z);
        const auto project = [&](const ClipVertex& v) {
          const Projected p = divide(v, frame.view);
-         return AtDistance{p.x_px, p.y_px, static_cast<float>(v.w)};
+         return Projected{p.x_px, p.y_px, static_cast<float>(v.w)};
        };
-       const auto between = [](const AtDistance& a, const AtDistance& b, float t) {
-         return AtDistance{a.x_px + t * (b.x_px - a.x_px), a.y_px + t * (b.y_px - a.y_px),
-                           a.w + t * (b.w - a.w)};
-       };
-       draw_screen_clipped(scene, frame, project, between, [&](const AtDistance& v) {
-         return Projected{v.x_px, v.y_px, depth_scale * (1.0f - near_z / v.w)};
+       draw_screen_clipped(scene, frame, project, [&](const Projected& at_w) {
+         return Projected{at_w.x_px, at_w.y_px, depth_scale * (1.0f - near_z / at_w.z01)};
        });
      },
      kLeft | kRight | kTop | kBottom,

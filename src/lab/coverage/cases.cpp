@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/nearest_name.h"
 #include "core/random.h"
 #include "edgewise/builtin.h"
 #include "scene/streams.h"
@@ -145,10 +144,6 @@ std::span<const CoverageCase> coverage_cases() {
       CoverageCase{"small_triangles", {64, 64}, small_triangles},
       CoverageCase{"double_tie", {64, 64}, double_tie}};
   return kCases;
-}
-
-const CoverageCase& find_coverage_case(std::string_view name) {
-  return find_named("coverage case", name, coverage_cases(), &CoverageCase::name);
 }
 
 std::vector<FloatTriangle> float_triangles(const TriangleStream& stream) {

@@ -146,8 +146,6 @@ struct CoverageCase {
 };
 
 std::span<const CoverageCase> coverage_cases();
-// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
-const CoverageCase& find_coverage_case(std::string_view name);
 
 // Converts a stream's triangles without a front end: nothing is clipped, culled or snapped.
 std::vector<FloatTriangle> float_triangles(const TriangleStream& stream);

@@ -1,6 +1,6 @@
 // Edge functions in lanes: the overloads of fill() and fill_by_steps() for plots in lanes. Samples of a box
-// are tested a vector of a row at a time; in wide boxes the interval search of row_spans.h skips the pixels
-// outside.
+// are tested a vector of a row at a time; in wide boxes the interval search of fill_between() skips the
+// pixels outside.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ class IntLanes {
  public:
   // Values are divided by 2^shift, rounded down. Their signs stay, since the steps are multiples of 2^shift.
   template <typename Int>
-  IntLanes(const FixedEdge<Int> (&edges)[3], const PixelRows& box, int shift) : box_(box) {
+  IntLanes(const FixedEdge<Int> (&edges)[3], const PixelBounds& box, int shift) : box_(box) {
     for (int i = 0; i < 3; ++i) {
       const auto short_of = [&](auto v) { return static_cast<std::uint32_t>(static_cast<Int>(v) >> shift); };
       first_[i] = short_of(edges[i].value);
@@ -109,13 +109,13 @@ class IntLanes {
  private:
   static HWY_INLINE VI all(std::uint32_t v) { return hn::Set(DI{}, static_cast<std::int32_t>(v)); }
 
-  PixelRows box_;
+  PixelBounds box_;
   std::uint32_t first_[3], step_x_[3], step_y_[3], row_[3] = {};  // two's complement
   VI value_[3];
 };
 
 template <class Edges>
-HWY_INLINE void test_in_lanes(Edges edges, const PixelRows& box, const LanePlot& plot) {
+HWY_INLINE void test_in_lanes(Edges edges, const PixelBounds& box, const LanePlot& plot) {
   HWY_ALIGN float depths[kLanes];
   for (int y = box.y0; y < box.y1; y += kLanes) {
     const int rows = std::min(kLanes, box.y1 - y);
@@ -132,7 +132,7 @@ HWY_INLINE void test_in_lanes(Edges edges, const PixelRows& box, const LanePlot&
 }
 
 template <typename Real>
-inline void fill(const RealEdge<Real> (&edges)[3], const PixelRows& box, LanePlot& plot) {
+inline void fill(const RealEdge<Real> (&edges)[3], const PixelBounds& box, LanePlot& plot) {
   if (box.x1 - box.x0 <= kNarrowForLanes_px)
     test_in_lanes(RealLanes<Real>(edges), box, plot);
   else
@@ -154,7 +154,7 @@ inline void fill(const FixedEdge<Int> (&edges)[3], const FixedBox& box, LanePlot
 }
 
 // The errors of a row accumulate from column to column, so lanes are rows.
-inline void fill_by_steps(const RealEdge<float> (&edges)[3], const PixelRows& box, LanePlot& plot) {
+inline void fill_by_steps(const RealEdge<float> (&edges)[3], const PixelBounds& box, LanePlot& plot) {
   const float sx = static_cast<float>(box.x0) + 0.5f, sy = static_cast<float>(box.y0) + 0.5f;
   float row[3];
   for (int i = 0; i < 3; ++i) row[i] = edges[i].at(sx, sy);

@@ -14,7 +14,6 @@
 #include <type_traits>
 
 #include "lab/coverage/plot.h"
-#include "lab/coverage/row_spans.h"
 
 namespace edgewise::lab {
 
@@ -35,7 +34,7 @@ struct FixedEdge {
 };
 
 struct FixedBox {
-  PixelRows pixels;
+  PixelBounds pixels;
   double area;  // of the triangle's whole box, in square units of 2^-bits px
   int bits;
 
@@ -47,7 +46,7 @@ struct FixedBox {
 };
 
 template <typename Int, class Plot>
-void test_every_pixel(const FixedEdge<Int> (&e)[3], const PixelRows& box, Plot& plot) {
+void test_every_pixel(const FixedEdge<Int> (&e)[3], const PixelBounds& box, Plot& plot) {
   auto row0 = e[0].value, row1 = e[1].value, row2 = e[2].value;
   for (int py = box.y0; py < box.y1; ++py) {
     auto v0 = row0, v1 = row1, v2 = row2;
@@ -103,10 +102,10 @@ struct FixedEdges {
     const auto first = [](std::int64_t v) { return (v + kSample - 1) >> kBits; };  // sample at or after v
     const auto [min_x, max_x] = std::minmax({x[0], x[1], x[2]});
     const auto [min_y, max_y] = std::minmax({y[0], y[1], y[2]});
-    const PixelRows box{static_cast<int>(std::max<std::int64_t>(first(min_x), w.x0)),
-                        static_cast<int>(std::max<std::int64_t>(first(min_y), w.y0)),
-                        static_cast<int>(std::min<std::int64_t>(first(max_x), w.x1())),
-                        static_cast<int>(std::min<std::int64_t>(first(max_y), w.y1()))};
+    const PixelBounds box{static_cast<int>(std::max<std::int64_t>(first(min_x), w.x0)),
+                          static_cast<int>(std::max<std::int64_t>(first(min_y), w.y0)),
+                          static_cast<int>(std::min<std::int64_t>(first(max_x), w.x1())),
+                          static_cast<int>(std::min<std::int64_t>(first(max_y), w.y1()))};
     if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
     const auto area =
         static_cast<Int>(static_cast<Wrapping>(x[1] - x[0]) * static_cast<Wrapping>(y[2] - y[0]) -

@@ -11,7 +11,6 @@
 #include <limits>
 
 #include "lab/coverage/plot.h"
-#include "lab/coverage/row_spans.h"
 
 namespace edgewise::lab {
 
@@ -42,7 +41,7 @@ struct RealEdge {
 template <typename Real>
 inline constexpr Real kAcceptZero = -std::numeric_limits<Real>::denorm_min();
 
-inline PixelRows real_box(const UnsnappedTriangle& t, Window w) {
+inline PixelBounds real_box(const UnsnappedTriangle& t, Window w) {
   // Nested std::min of two values compiles to branch-free instructions; an initializer list does not.
   const auto least = [](const float(&v)[3]) { return std::min(std::min(v[0], v[1]), v[2]); };
   const auto most = [](const float(&v)[3]) { return std::max(std::max(v[0], v[1]), v[2]); };
@@ -55,7 +54,7 @@ inline PixelRows real_box(const UnsnappedTriangle& t, Window w) {
 // triangle without area or outside the window.
 template <typename Real, class Threshold, class Body>
 void with_edges(const UnsnappedTriangle& t, Window window, Body&& body) {
-  const PixelRows box = real_box(t, window);
+  const PixelBounds box = real_box(t, window);
   if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
   Real x[3], y[3];
   for (int i = 0; i < 3; ++i) x[i] = Real{t.x_px[i]}, y[i] = Real{t.y_px[i]};
@@ -73,7 +72,7 @@ void with_edges(const UnsnappedTriangle& t, Window window, Body&& body) {
 
 // "&" rather than "&&": one branch to mispredict, not three.
 template <typename Real, bool kFused, class Plot>
-void test_every_pixel(const RealEdge<Real, kFused> (&edges)[3], const PixelRows& box, Plot& plot) {
+void test_every_pixel(const RealEdge<Real, kFused> (&edges)[3], const PixelBounds& box, Plot& plot) {
   const RealEdge<Real, kFused> e0 = edges[0], e1 = edges[1], e2 = edges[2];
   for (int y = box.y0; y < box.y1; ++y) {
     const auto row0 = e0.row(y), row1 = e1.row(y), row2 = e2.row(y);
@@ -87,7 +86,7 @@ inline constexpr int kNarrowForReals_px = 6;
 
 // edges-inl.h has the overload for plots in lanes, for edges that are not fused.
 template <typename Real, bool kFused, class Plot>
-void fill(const RealEdge<Real, kFused> (&edges)[3], const PixelRows& box, Plot& plot) {
+void fill(const RealEdge<Real, kFused> (&edges)[3], const PixelBounds& box, Plot& plot) {
   if (box.x1 - box.x0 <= kNarrowForReals_px)
     test_every_pixel(edges, box, plot);
   else
@@ -98,7 +97,7 @@ template <typename Real, class Threshold>
 struct RealEdges {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    with_edges<Real, Threshold>(t, window, [&](const RealEdge<Real>(&edges)[3], const PixelRows& box) {
+    with_edges<Real, Threshold>(t, window, [&](const RealEdge<Real>(&edges)[3], const PixelBounds& box) {
       plot.begin();
       fill(edges, box, plot);
     });
@@ -134,7 +133,7 @@ template <bool kFused>
 struct EdgeEquations {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    with_edges<float, TopLeft>(t, window, [&](const RealEdge<float>(&edges)[3], const PixelRows& box) {
+    with_edges<float, TopLeft>(t, window, [&](const RealEdge<float>(&edges)[3], const PixelBounds& box) {
       RealEdge<float, kFused> equations[3];
       for (int i = 0; i < 3; ++i) {
         const auto &edge = edges[i], &next = edges[i == 2 ? 0 : i + 1];
@@ -168,7 +167,7 @@ inline constexpr double kEquationReachPx = 1.5;
 //
 // edges-inl.h has the overload for plots in lanes.
 template <class Plot>
-void fill_by_steps(const RealEdge<float> (&edges)[3], const PixelRows& box, Plot& plot) {
+void fill_by_steps(const RealEdge<float> (&edges)[3], const PixelBounds& box, Plot& plot) {
   const RealEdge<float> e0 = edges[0], e1 = edges[1], e2 = edges[2];
   const float sx = static_cast<float>(box.x0) + 0.5f, sy = static_cast<float>(box.y0) + 0.5f;
   float row0 = e0.at(sx, sy), row1 = e1.at(sx, sy), row2 = e2.at(sx, sy);
@@ -192,7 +191,7 @@ void fill_by_steps(const RealEdge<float> (&edges)[3], const PixelRows& box, Plot
 struct FloatIncremental {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    with_edges<float, TopLeft>(t, window, [&](const RealEdge<float>(&edges)[3], const PixelRows& box) {
+    with_edges<float, TopLeft>(t, window, [&](const RealEdge<float>(&edges)[3], const PixelBounds& box) {
       plot.begin();
       fill_by_steps(edges, box, plot);
     });

@@ -1,6 +1,5 @@
 #include "lab/coverage/visible.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "edgewise/contract.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/parallel.h"
@@ -102,10 +101,9 @@ std::uint64_t CoverageNeeds::allowed() const {
   return static_cast<std::uint64_t>(*displacement_ * static_cast<double>(crossings_) / 1e6);
 }
 
-Question CoverageNeeds::cracks() const {
-  Question question{
-      "subpixel bits: no crack, no fold", {}, {}, shared_crossings_, "shared-edge crossing", "crack"};
-  for (const Tried& tried : bits_) question.answers.push_back(tried.cracks);
+Question CoverageNeeds::cracks(const char* name, const std::vector<Tried>& all) const {
+  Question question{name, {}, {}, shared_crossings_, "shared-edge crossing", "crack"};
+  for (const Tried& tried : all) question.answers.push_back(tried.cracks);
   return question;
 }
 
@@ -120,16 +118,10 @@ Question CoverageNeeds::displaced() const {
   return question;
 }
 
-Question CoverageNeeds::floats() const {
-  Question question{"float edges without a crack", {},     {}, shared_crossings_,
-                    "shared-edge crossing",        "crack"};
-  for (const Tried& tried : floats_) question.answers.push_back(tried.cracks);
-  return question;
-}
-
 std::vector<Question> CoverageNeeds::questions() const {
   if (shared_crossings_ == 0) return {displaced()};
-  return {cracks(), displaced(), floats()};
+  return {cracks("subpixel bits: no crack, no fold", bits_), displaced(),
+          cracks("float edges without a crack", floats_)};
 }
 
 }  // namespace edgewise::lab

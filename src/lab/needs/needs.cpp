@@ -1,10 +1,29 @@
 #include "lab/needs/needs.h"
 
+#include <algorithm>
+
 #include "core/grid.h"
 #include "edgewise/contract.h"
 #include "lab/cases/to_stream.h"
 
 namespace edgewise::lab {
+
+const Answer* Question::needed() const {
+  const auto failing =
+      std::find_if(answers.rbegin(), answers.rend(), [](const Answer& a) { return !a.enough(); });
+  return failing == answers.rbegin() ? nullptr : &*failing.base();
+}
+
+const Answer* Question::next_weaker() const {
+  const Answer* const first_enough = needed();
+  if (first_enough == nullptr) return &answers.back();
+  return first_enough == answers.data() ? nullptr : first_enough - 1;
+}
+
+std::string bits_name(int bits, std::string_view kind) {
+  return std::to_string(bits) + " " + std::string(kind) + (kind.empty() ? "bit" : " bit") +
+         (bits == 1 ? "" : "s");
+}
 
 void Needs::add(const Drawable& drawable, FrontendOptions options) {
   if (const auto rounded = in_floats(drawable)) return add(*rounded, options);

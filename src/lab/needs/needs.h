@@ -30,9 +30,8 @@ class CoverageNeeds {
     Answer cracks, displaced;
     std::uint64_t wrong = 0;  // pixels that differ from the positions before snapping, in all frames
   };
-  Question cracks() const;
+  Question cracks(const char* name, const std::vector<Tried>& all) const;
   Question displaced() const;
-  Question floats() const;
   std::uint64_t allowed() const;
 
   std::optional<double> displacement_;

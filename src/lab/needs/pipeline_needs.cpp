@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <span>
 
 #include "core/parallel.h"
 #include "edgewise/contract.h"

@@ -1,6 +1,5 @@
 #include "lab/projection/projection.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "lab/truth/scan.h"

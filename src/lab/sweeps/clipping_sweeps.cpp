@@ -1,6 +1,5 @@
 // Clipping sweeps: the distance of the near plane, the distance of a vertex from the camera's plane, and that
 // of camera and scene from the origin.
-
 #include "core/random.h"
 #include "core/trigonometry.h"
 #include "lab/clipping/clipping.h"
@@ -13,14 +12,11 @@ namespace {
 constexpr Size kSize{128, 96};
 
 Measured measure_scene(const ClippingScene& scene) {
-  const auto methods = clipping_methods();
   const ClippingTruth truth = clipping_truth(scene);
-  Measured result(methods.size());
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    const ClippingScore s = score(methods[i], scene, truth);
-    result.methods[i] = {s.wrong(), s.covered};
-  }
-  return result;
+  return measured(clipping_methods(), [&](const ClippingMethod& method) {
+    const ClippingScore s = score(method, scene, truth);
+    return Tally{s.wrong(), s.covered};
+  });
 }
 
 // The camera looks elsewhere for each seed.

@@ -251,9 +251,7 @@ void add_sweeps(std::vector<Sweep>& list, std::string_view (&&names)[4], std::st
 }  // namespace
 
 std::vector<MethodInfo> swept_coverage_methods() {
-  std::vector<MethodInfo> list;
-  for (const Swept& one : swept()) list.push_back(one.info);
-  return list;
+  return infos_of(swept());
 }
 
 std::vector<Sweep> coverage_sweeps() {

@@ -1,6 +1,4 @@
 // Facing sweeps: the tilt of the rays to the faces, and how near the faces are to edge-on.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/random.h"
@@ -37,13 +35,11 @@ bool is_front(const FacingScene& scene, const Face& face, int bits) {
 }
 
 Measured measure_scene(const FacingScene& scene) {
-  const auto methods = facing_methods();
   const auto facts = facing_facts(scene);
-  Measured result(0);
-  for (const FacingMethod& method : methods) {
+  Measured result = measured(facing_methods(), [&](const FacingMethod& method) {
     const FacingScore s = score(method, scene, facts).source;
-    result.methods.push_back({s.misclassified, s.faces});
-  }
+    return Tally{s.misclassified, s.faces};
+  });
   for (const Fine& fine : kFine) {
     Tally& tally = result.methods.emplace_back();
     for (std::size_t i = 0; i < facts.size(); ++i)

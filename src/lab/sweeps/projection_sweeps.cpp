@@ -23,20 +23,16 @@ const std::vector<ProjectionMethod>& swept_projections() {
 }
 
 Measured measure_scene(Scene scene) {
-  const auto& methods = swept_projections();
   const ProjectionJudge judge(std::move(scene), {480, 270}, 1);
-  Measured result(methods.size());
-  for (std::size_t i = 0; i < methods.size(); ++i)
-    result.methods[i] = {judge.score(methods[i]).wrong, judge.crossings()};
-  return result;
+  return measured(swept_projections(), [&](const ProjectionMethod& method) {
+    return Tally{judge.score(method).wrong, judge.crossings()};
+  });
 }
 
 }  // namespace
 
 std::vector<MethodInfo> swept_projection_methods() {
-  std::vector<MethodInfo> list;
-  for (const ProjectionMethod& method : swept_projections()) list.push_back(method.info);
-  return list;
+  return infos_of(swept_projections());
 }
 
 std::vector<Sweep> projection_sweeps() {

@@ -31,6 +31,14 @@ struct Measured {
   std::vector<Tally> methods;  // in the order of swept_methods()
 };
 
+// tally(method) counts for each method.
+template <typename Methods, typename TallyOf>
+Measured measured(const Methods& methods, TallyOf&& tally) {
+  Measured result(0);
+  for (const auto& method : methods) result.methods.push_back(tally(method));
+  return result;
+}
+
 struct XAxis {
   std::string_view name, unit;
 };

@@ -12,15 +12,12 @@ namespace {
 
 template <typename Errors>
 Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
-  const auto methods = visibility_methods();
   const auto visible = true_visible_triangles(scene);
-  Measured result(methods.size());
-  for (std::size_t i = 0; i < methods.size(); ++i) {
+  return measured(visibility_methods(), [&](const VisibilityMethod& method) {
     // All methods draw the same snapped positions; the coverage sweeps measure the errors of snapping.
-    const VisibilityScore s = score(methods[i], scene, visible).snapped;
-    result.methods[i] = {errors(s), s.covered};
-  }
-  return result;
+    const VisibilityScore s = score(method, scene, visible).snapped;
+    return Tally{errors(s), s.covered};
+  });
 }
 
 Measured measure_separation(double distance, double separation, std::uint64_t seed) {

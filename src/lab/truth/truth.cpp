@@ -1,6 +1,5 @@
 #include "lab/truth/truth.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lab/truth/scan.h"
@@ -41,24 +40,16 @@ int snapped_side(const ScreenTriangle& t, std::size_t from, std::size_t to, Wide
       cross(Wide{t.x_q15[from]}, Wide{t.y_q15[from]}, Wide{t.x_q15[to]}, Wide{t.y_q15[to]}, sx, sy));
 }
 
+int float_side(const double (&x)[3], const double (&y)[3], std::size_t from, std::size_t to, double sx,
+               double sy) {
+  const Ball estimate = cross(Ball(x[from]), Ball(y[from]), Ball(x[to]), Ball(y[to]), Ball(sx), Ball(sy));
+  if (const int sign = estimate.sign(); sign != 0) return sign;
+  return sgn(cross(mpq_class(x[from]), mpq_class(y[from]), mpq_class(x[to]), mpq_class(y[to]), mpq_class(sx),
+                   mpq_class(sy)));
+}
+
 constexpr double sample_px(int pixel) {
   return pixel + 0.5;
-}
-
-// Where an edge crosses the samples of a row.
-template <typename Truth>
-double crossing_of(const Truth& truth, std::size_t edge, int py) {
-  const std::size_t next = (edge + 1) % 3;
-  const double slope = (truth.x_px(next) - truth.x_px(edge)) / (truth.y_px(next) - truth.y_px(edge));
-  return truth.x_px(edge) + (sample_px(py) - truth.y_px(edge)) * slope;
-}
-
-// The pixels inside the window that overlap the triangle's bounding box.
-template <typename Truth>
-PixelBounds box_of(const Truth& truth, Window window) {
-  const auto [low_x, high_x] = std::minmax({truth.x_px(0), truth.x_px(1), truth.x_px(2)});
-  const auto [low_y, high_y] = std::minmax({truth.y_px(0), truth.y_px(1), truth.y_px(2)});
-  return pixels_between(low_x, low_y, high_x, high_y, window);
 }
 
 SnappedTruth truth_of(const ScreenTriangle& t) {
@@ -107,24 +98,12 @@ PixelBounds pixels_between(double x0, double y0, double x1, double y1, Window wi
 }
 
 SnappedTruth::SnappedTruth(const ScreenTriangle& triangle)
-    : triangle_(triangle),
-      rule_(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])) {}
+    : ScreenTruth(triangle.y_q15, snapped_side(triangle, 0, 1, triangle.x_q15[2], triangle.y_q15[2])),
+      triangle_(triangle) {}
 
 bool SnappedTruth::accepts(std::size_t edge, int px, int py) const {
-  return rule_.accepts(edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384,
-                                          Wide{py} * 32768 + 16384));
-}
-
-double SnappedTruth::crossing(std::size_t edge, int py) const {
-  return crossing_of(*this, edge, py);
-}
-
-PixelBounds SnappedTruth::box(Window window) const {
-  return box_of(*this, window);
-}
-
-bool SnappedTruth::covers(int px, int py) const {
-  return facing() != 0 && accepts(0, px, py) && accepts(1, px, py) && accepts(2, px, py);
+  return FillRule::accepts(edge, snapped_side(triangle_, edge, (edge + 1) % 3, Wide{px} * 32768 + 16384,
+                                              Wide{py} * 32768 + 16384));
 }
 
 mpq_class SnappedTruth::depth(int px, int py) const {
@@ -139,7 +118,9 @@ Ball SnappedTruth::depth_estimate(int px, int py) const {
 }
 
 FloatTruth::FloatTruth(const double (&x_px)[3], const double (&y_px)[3])
-    : x_{x_px[0], x_px[1], x_px[2]}, y_{y_px[0], y_px[1], y_px[2]}, rule_(y_, side(0, 1, x_[2], y_[2])) {}
+    : ScreenTruth(y_px, float_side(x_px, y_px, 0, 1, x_px[2], y_px[2])),
+      x_{x_px[0], x_px[1], x_px[2]},
+      y_{y_px[0], y_px[1], y_px[2]} {}
 
 FloatTruth::FloatTruth(const UnsnappedTriangle& t)
     : FloatTruth({double{t.x_px[0]}, double{t.x_px[1]}, double{t.x_px[2]}},
@@ -147,27 +128,8 @@ FloatTruth::FloatTruth(const UnsnappedTriangle& t)
   for (int i = 0; i < 3; ++i) z_[i] = double{t.z01[i]};
 }
 
-int FloatTruth::side(std::size_t from, std::size_t to, double sx, double sy) const {
-  const Ball estimate = cross(Ball(x_[from]), Ball(y_[from]), Ball(x_[to]), Ball(y_[to]), Ball(sx), Ball(sy));
-  if (const int sign = estimate.sign(); sign != 0) return sign;
-  return sgn(cross(mpq_class(x_[from]), mpq_class(y_[from]), mpq_class(x_[to]), mpq_class(y_[to]),
-                   mpq_class(sx), mpq_class(sy)));
-}
-
 bool FloatTruth::accepts(std::size_t edge, int px, int py) const {
-  return rule_.accepts(edge, side(edge, (edge + 1) % 3, sample_px(px), sample_px(py)));
-}
-
-double FloatTruth::crossing(std::size_t edge, int py) const {
-  return crossing_of(*this, edge, py);
-}
-
-PixelBounds FloatTruth::box(Window window) const {
-  return box_of(*this, window);
-}
-
-bool FloatTruth::covers(int px, int py) const {
-  return facing() != 0 && accepts(0, px, py) && accepts(1, px, py) && accepts(2, px, py);
+  return FillRule::accepts(edge, float_side(x_, y_, edge, (edge + 1) % 3, sample_px(px), sample_px(py)));
 }
 
 mpq_class FloatTruth::depth(int px, int py) const {

@@ -9,6 +9,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -50,6 +51,8 @@ struct Run {
 // edge) or to the right of it (a left edge).
 class FillRule {
  public:
+  static constexpr double kDepthError = 0.0;  // of exact planes
+
   // `facing` is the sign of cross(v0, v1, v2) below: 1 is clockwise on the y-down screen.
   template <typename Y>
   FillRule(const Y (&y)[3], int facing) : facing_(facing) {
@@ -60,7 +63,8 @@ class FillRule {
       accepts_ties_[i] = lean_[i] > 0 || (lean_[i] == 0 && third > from);
     }
   }
-  int facing() const { return facing_; }
+  int facing() const { return facing_; }  // 1 front (clockwise), -1 back, 0 without area
+  std::size_t sides() const { return 3; }
   // The side of an edge on which the triangle lies: 1 right, -1 left, 0 if the edge is horizontal.
   int lean(std::size_t edge) const { return lean_[edge]; }
   // `side` is the sign of cross(from, to, sample).
@@ -71,57 +75,62 @@ class FillRule {
   bool accepts_ties_[3];
 };
 
-// Both truths have the same interface, which lab/truth/scan.h states. Edge i runs from vertex i to the next
-// one; a pixel's sample is its centre.
-class SnappedTruth {
+// What both truths share. They have the same interface, which lab/truth/scan.h states, and x_px(vertex) and
+// y_px(vertex). Edge i runs from vertex i to the next one; a pixel's sample is its centre.
+template <typename Truth>
+class ScreenTruth : public FillRule {
+ public:
+  using FillRule::FillRule;
+  bool covers(int px, int py) const {
+    const Truth& t = self();
+    return facing() != 0 && t.accepts(0, px, py) && t.accepts(1, px, py) && t.accepts(2, px, py);
+  }
+  double crossing(std::size_t edge, int py) const {
+    const std::size_t next = (edge + 1) % 3;
+    const double x = self().x_px(edge), y = self().y_px(edge);
+    return x + (py + 0.5 - y) * ((self().x_px(next) - x) / (self().y_px(next) - y));
+  }
+  PixelBounds box(Window window) const {
+    const auto [low_x, high_x] = std::minmax({self().x_px(0), self().x_px(1), self().x_px(2)});
+    const auto [low_y, high_y] = std::minmax({self().y_px(0), self().y_px(1), self().y_px(2)});
+    return pixels_between(low_x, low_y, high_x, high_y, window);
+  }
+
+ private:
+  const Truth& self() const { return static_cast<const Truth&>(*this); }
+};
+
+class SnappedTruth : public ScreenTruth<SnappedTruth> {
  public:
   explicit SnappedTruth(const ScreenTriangle& triangle);
-  int facing() const { return rule_.facing(); }  // 1 front (clockwise), -1 back, 0 without area
-  bool covers(int px, int py) const;
-  std::size_t sides() const { return 3; }
-  int lean(std::size_t edge) const { return rule_.lean(edge); }
   bool accepts(std::size_t edge, int px, int py) const;
-  double crossing(std::size_t edge, int py) const;
-  PixelBounds box(Window window) const;
   // On the exact plane, in depth units of rule 6. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
-  static constexpr double kDepthError = 0.0;
 
   double x_px(std::size_t vertex) const { return triangle_.x_q15[vertex] / 32768.0; }
   double y_px(std::size_t vertex) const { return triangle_.y_q15[vertex] / 32768.0; }
 
  private:
   ScreenTriangle triangle_;
-  FillRule rule_;
 };
 
-class FloatTruth {
+class FloatTruth : public ScreenTruth<FloatTruth> {
  public:
   // Coordinates and depths must be finite.
   explicit FloatTruth(const UnsnappedTriangle& triangle);
   // Positions in double; without depth.
   FloatTruth(const double (&x_px)[3], const double (&y_px)[3]);
-  int facing() const { return rule_.facing(); }
-  bool covers(int px, int py) const;
-  std::size_t sides() const { return 3; }
-  int lean(std::size_t edge) const { return rule_.lean(edge); }
   bool accepts(std::size_t edge, int px, int py) const;
-  double crossing(std::size_t edge, int py) const;
-  PixelBounds box(Window window) const;
   // On the exact plane, in the unit of z01. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
-  static constexpr double kDepthError = 0.0;
 
   double x_px(std::size_t vertex) const { return x_[vertex]; }
   double y_px(std::size_t vertex) const { return y_[vertex]; }
 
  private:
-  int side(std::size_t from, std::size_t to, double x_px, double y_px) const;
-
   double x_[3], y_[3], z_[3] = {};
-  FillRule rule_;
 };
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;

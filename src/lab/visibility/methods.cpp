@@ -45,36 +45,26 @@ Real reversed(Real view_z, const VisibilityScene& s) {
   return near_z / (far_z - near_z) * ((far_z - view_z) / view_z);
 }
 
-class ReversedPlane {
- public:
-  ReversedPlane(const VisibilityTriangle& t, const VisibilityScene& s)
-      : plane_(t.screen, vertex(t.view_z[0], s), vertex(t.view_z[1], s), vertex(t.view_z[2], s)) {}
-  void row(int x, int y) { plane_.row(x, y); }
-  float value(int x) const { return plane_.at(x); }
-  static bool nearer(float a, float b) { return a > b; }
-
- private:
-  static float vertex(double view_z, const VisibilityScene& s) {
-    return reversed(static_cast<float>(view_z), s);
-  }
-  GradientPlane<float> plane_;
-};
-
-// A float depth buffer, 0 near and 1 far: most floats lie near 0, where perspective puts few depths.
+// A float depth buffer. kDepth(view_z, scene) is the depth of a vertex.
+template <auto kDepth, bool kGreaterIsNearer>
 class FloatPlane {
  public:
   FloatPlane(const VisibilityTriangle& t, const VisibilityScene& s)
       : plane_(t.screen, vertex(t.view_z[0], s), vertex(t.view_z[1], s), vertex(t.view_z[2], s)) {}
   void row(int x, int y) { plane_.row(x, y); }
   float value(int x) const { return plane_.at(x); }
-  static bool nearer(float a, float b) { return a < b; }
+  static bool nearer(float a, float b) { return kGreaterIsNearer ? a > b : a < b; }
 
  private:
   static float vertex(double view_z, const VisibilityScene& s) {
-    return depth01(static_cast<float>(view_z), s);
+    return kDepth(static_cast<float>(view_z), s);
   }
   GradientPlane<float> plane_;
 };
+
+using ReversedPlane = FloatPlane<reversed<float>, true>;
+// 0 near and 1 far: most floats lie near 0, where perspective puts few depths.
+using UsualPlane = FloatPlane<depth01<float>, false>;
 
 // The painter's algorithm (Newell, Newell and Sancha, 1972, without their splitting): sort, then overwrite.
 void paint(const VisibilityScene& scene, VisibilityFrame& frame, std::uint32_t id) {
@@ -219,7 +209,7 @@ const std::array kMethods{
     VisibilityMethod{{"float_z", "float depth buffer, 1 is far, plane in float", "most software renderers",
                       "depth within 16 steps of 2^-24, times length over width of the triangle", false},
                      [](const VisibilityScene& scene, VisibilityFrame& frame) {
-                       draw_depth_buffer<FloatPlane, float>(scene, frame, frame.depth_float, 2.0f);
+                       draw_depth_buffer<UsualPlane, float>(scene, frame, frame.depth_float, 2.0f);
                      },
                      [](const VisibilityFrame& frame, std::size_t pixel) {
                        return static_cast<double>(frame.depth_float[pixel]);

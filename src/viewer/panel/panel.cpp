@@ -11,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-#include "support/printable.h"
+#include "support/console.h"
 #include "viewer/panel/imgui_paint.h"
 
 namespace edgewise::viewer {
