@@ -192,7 +192,7 @@ while read -r bits format scene; do
   [[ $(head -c 4 a.tri) == $format ]]
   for drawn in a.tri - "$scene --size 640x360"; do
     edgewise hash $drawn $options <a.tri >hash
-    cut -c 1-16 hash
+    head -c 16 hash && echo
   done | sort -u >>hashes
   edgewise verify a.tri --subpixel-bits $bits
 done <<END

@@ -95,7 +95,7 @@ struct Summed {
   std::string table(const Column<Scores> (&columns)[kCount], int ranked = -1) const {
     std::vector<Row> rows{{"method"}};
     for (const auto& column : columns) rows.front().push_back(column.head);
-    if (ranked >= 0) rows.front().emplace_back("most are on");
+    if (ranked >= 0) rows.front().emplace_back("over half on");
     for (std::size_t i = 0; i < scenes.front()->methods.size(); ++i) {
       const auto score = [&](const SceneResult* scene) -> const Scores& {
         return std::get<Scores>(scene->methods[i].score);
@@ -109,11 +109,9 @@ struct Summed {
       if (ranked < 0) continue;
       const auto errors_on = [&](const SceneResult* scene) { return columns[ranked].count(score(scene)); };
       const SceneResult* const worst = std::ranges::max(scenes, {}, errors_on);
-      double all = 0.0;
-      for (const SceneResult* scene : scenes) all += static_cast<double>(errors_on(scene));
-      row.push_back(all == 0.0 ? "-"
-                               : fmt::format("{} {:.0f}%", worst->name,
-                                             100.0 * static_cast<double>(errors_on(worst)) / all));
+      std::uint64_t all = 0;
+      for (const SceneResult* scene : scenes) all += errors_on(scene);
+      row.push_back(2 * errors_on(worst) > all ? worst->name : "-");
     }
     return aligned(rows);
   }
