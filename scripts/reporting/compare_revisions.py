@@ -62,11 +62,19 @@ def revision(name):
 
 
 def finished(command, **options):
-    """The ended process, with its output. Ctrl-C reaches it, too."""
+    """The ended process, with its output. An interruption ends its children, too."""
     try:
-        return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, errors="replace", check=False, **options)
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, errors="replace",
+                                   start_new_session=True, **options)
     except OSError as error:
         raise BadInput(f"{command[0]}: {error.strerror}") from None
+    with process:
+        try:
+            output, errors = process.communicate()
+            return subprocess.CompletedProcess(command, process.returncode, output, errors)
+        except BaseException:
+            os.killpg(process.pid, signal.SIGTERM)  # Ninja then ends its compilers
+            raise
 
 
 def run(command, what):

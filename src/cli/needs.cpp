@@ -341,13 +341,14 @@ Levels, from the least precise on:
   depth buffer                 1 to 30 bits, then ours of 31 bits, a float, a reversed float; only
                                nearer pixels pass
 
-Then edges:
+Then:
 
+  depth formats                which of D16, D24, D32F, reversed D32F and ours are enough
+  integers of edges            the bits, with the sign, that these triangles need; and the largest
+                               triangle and picture for integers of 32 and 64 bits
   subpixel bits                so many that no larger number leaves a crack; so many that none
                                displaces more pixels than 8 bits do
   float edges                  methods that compute edges in floats, without a crack
-  integers of edges            the bits, with the sign, that these triangles need; and the largest
-                               triangle and picture for integers of 32 and 64 bits
 
 All figures are of these frames only. --json has a wrong pixel of each level that is not enough, and
 the triangles there, numbered in submission order from 0.

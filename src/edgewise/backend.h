@@ -60,7 +60,7 @@ struct FramePart {
 };
 
 // A backend keeps its scratch memory between frames, until it is destroyed. Triangles, frame and scratch
-// memory together take less than 100 bytes per triangle and 16 per pixel if triangles are small, and up to 8
+// memory together take about 100 bytes per triangle and 16 per pixel if triangles are small, and up to 8
 // bytes more per tile or band that a larger triangle overlaps. A backend object is not thread-safe; different
 // objects may draw on different threads.
 class Backend {

@@ -13,7 +13,8 @@ namespace edgewise {
 // open descriptors (/dev/stdout) are written directly.
 class AtomicFile {
  public:
-  // Throws FileError if the file could not be written: before long work whose result it is for.
+  // Throws FileError if the file could not be written: before long work whose result it is for. Descriptors
+  // are not checked.
   explicit AtomicFile(const std::filesystem::path& path);
 
   std::ostream& stream() { return stream_; }

@@ -161,8 +161,8 @@ void show_sdl_window(Session& session, const std::string& title, tools::Size siz
     session.advance(std::min(passed, kLongestStep_s));
     window.show(session, panel);
     open = open && !session.done();  // the panel has a button for it
-    if (const auto left = kFrame - (Clock::now() - now); left.count() > 0) EDGEWISE_CALL(Delay)
-    (static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(kFrame - (Clock::now() - now));
+    if (left.count() > 0) EDGEWISE_CALL(Delay)(static_cast<Uint32>(left.count()));
   }
 }
 

@@ -28,6 +28,8 @@ void Progress::show(std::optional<double> fraction, std::string_view label) {
   if (fraction) fraction = std::clamp(*fraction, 0.0, 1.0);
   const int percent = fraction ? static_cast<int>(100.0 * *fraction) : -1;
   const auto now = std::chrono::steady_clock::now();
+  if (fraction.value_or(0.0) < counted_) start_ = now;  // another count begins
+  counted_ = fraction.value_or(0.0);
   if (percent == shown_percent_ && now - shown_at_ < std::chrono::seconds(1)) return;
   shown_percent_ = percent;
   shown_at_ = now;

@@ -148,7 +148,7 @@ constexpr std::array kDemos{
     Demo{"realbasic-backface", "REALbasic engine, backface removal",
          "culling of faces and of whole objects, and two-sided faces", ring_of_cubes, Cull::back, kBackface},
     Demo{"outlaw-triad", "Outlaw Triad trainer, hidden face removal",
-         "quads, of which a test of their normals drops half", sphere_of_quads, Cull::back, kTriad},
+         "a test of quads' normals, which drops half of them", sphere_of_quads, Cull::back, kTriad},
 };
 
 }  // namespace

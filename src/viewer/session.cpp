@@ -210,7 +210,7 @@ void Session::act(Command command) {
 void Session::switch_by(Command command, int step) {
   Side& side = sides_[state_.active];
   lab::StageMethods& choice = side.choice;
-  const std::pair<Command, std::function<void()>> kSwitches[] = {
+  const std::pair<Command, std::function<void()>> switches[] = {
       {Command::coverage, [&] { step_method(lab::drawing_methods(), choice.coverage, step); }},
       {Command::edges, [&] { switch_edges(side); }},
       {Command::clipping, [&] { step_method(lab::clipping_methods(), choice.clipping, step); }},
@@ -219,7 +219,7 @@ void Session::switch_by(Command command, int step) {
       {Command::cull_front, [&] { side.cull_front = !side.cull_front; }},
       {Command::cull_back, [&] { side.cull_back = !side.cull_back; }},
       {Command::light, [&] { state_.lit = !state_.lit; }}};
-  for (const auto& [wanted, action] : kSwitches)
+  for (const auto& [wanted, action] : switches)
     if (command == wanted) action(), reset_results();
 }
 

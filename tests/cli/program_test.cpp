@@ -202,6 +202,7 @@ done <<END
 15 TRI2 cubes
 END
 [[ $(wc -l <hashes) == 4 && $(sort -u hashes | wc -l) == 4 ]]
+edgewise verify --size 65x33
 edgewise view cubes --size 90x50 --subpixel-bits 4 -o b.png
 edgewise view cubes --size 90x50 -o c.png
 differ b.png c.png

@@ -60,8 +60,8 @@ face. Projection methods are compared with the source, and with its positions ro
 
 Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels,
 or per 10^6 faces. If no error was observed, the number in parentheses is the 95 % upper bound of
-the rate. Meshes, single triangles and scenes with vertices on our grid of 1/256 px have tables of
-their own.
+the rate. Over half on: the scene that has over half of the errors. Meshes, single triangles and
+scenes with vertices on our grid of 1/256 px have tables of their own.
 
 Cracks are samples at an edge that two triangles share, drawn by neither (gap) or by both (double
 hit), whatever lies behind. They share it if their vertices agree within 2^-10 px and 2^-20 of the

@@ -102,12 +102,15 @@ Json choice_json(const ChoiceResult& choice) {
 
 Json cube_json(const CubeResult& cube) {
   Json result{{"frames", cube.frames}, {"methods", Json::array()}};
-  for (const CubeMethodResult& m : cube.methods)
-    result["methods"].push_back({{"name", m.name},
-                                 {"gaps", {{"total", m.gaps}}},
-                                 {"double_hits", {{"total", m.double_hits}}},
-                                 {"missing", {{"total", m.missing}}},
-                                 {"extra", {{"total", m.extra}}}});
+  for (const CubeMethodResult& m : cube.methods) {
+    Json method{{"name", m.name},
+                {"gaps", {{"total", m.gaps}}},
+                {"double_hits", {{"total", m.double_hits}}},
+                {"missing", {{"total", m.missing}}},
+                {"extra", {{"total", m.extra}}}};
+    if (m.exact && m.wrong_snapped != 0) method["broke_promise"] = true;
+    result["methods"].push_back(method);
+  }
   return result;
 }
 

@@ -31,7 +31,7 @@ struct Judging {
   std::vector<Closeup>& closeups;
 };
 
-// Fill in all of `result` except what identifies the scene (family, name, summary). Of coverage they set the
+// Fill in all of `result` except what identifies the scene (family, name). Of coverage they set the
 // kind of a scene that is not small.
 void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult& result);
 void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResult& result);

@@ -90,7 +90,7 @@ struct Summed {
                        scenes.size() == 1 ? "" : "s");
   }
 
-  // The last column names the scene with the highest rate in the column `ranked`, if there is one.
+  // The last column names the scene that has over half of the errors in column `ranked`.
   template <typename Scores, std::size_t kCount>
   std::string table(const Column<Scores> (&columns)[kCount], int ranked = -1) const {
     std::vector<Row> rows{{"method"}};
