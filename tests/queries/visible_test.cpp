@@ -71,20 +71,6 @@ Mesh square() {
   return {{{-1, -1, -3}, {-1, 1, -3}, {1, 1, -3}, {1, -1, -3}}, {{0, 1, 2}, {0, 2, 3}}, {0, 0}};
 }
 
-TEST(Visible, RefusesIdsAndInstancesThatAreMissing) {
-  Scene scene;
-  scene.meshes = {square(), Mesh{}};
-  scene.instances = {{.mesh = 0, .translation = {-1, 0, 0}}, {.mesh = 1}, {.mesh = 0}};
-  EXPECT_EQ(first_ids(scene), (std::vector<std::size_t>{0, 2, 2, 4}));
-  const Framebuffer frame = ids_of(scene, 80, 80);
-  EXPECT_EQ(message_of([&] { pixels_per_triangle(frame, 3); }), "a pixel has id 3 of 3 triangles");
-  scene.instances.pop_back();
-  EXPECT_NE(message_of([&] { pixels_per_instance(frame, scene); }), "");
-  scene.instances[1].mesh = 3;
-  EXPECT_EQ(message_of([&] { pixels_per_mesh(frame, scene); }), "an instance names mesh 3 of 2");
-  EXPECT_EQ(message_of([&] { first_ids(scene); }), "an instance names mesh 3 of 2");
-}
-
 TEST(Visible, ObjectsHaveTheIdsOfTheirPartsInAllInstances) {
   Scene scene;
   scene.meshes = {square(), Mesh{}, square()};
@@ -97,6 +83,7 @@ TEST(Visible, ObjectsHaveTheIdsOfTheirPartsInAllInstances) {
   EXPECT_EQ(message_of([&] { objects(scene); }), "a part of 2 triangles from 1 on does not fit a mesh of 2");
   scene.instances[2].mesh = 3;
   EXPECT_EQ(message_of([&] { objects(scene); }), "an instance names mesh 3 of 3");
+  EXPECT_EQ(message_of([&] { pixels_per_mesh(Framebuffer(8, 8), scene); }), "an instance names mesh 3 of 3");
 }
 
 TEST(Visible, HoldsTheHighestId) {
