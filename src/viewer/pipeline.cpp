@@ -59,21 +59,7 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   }
   const Scene& scene = std::get<Scene>(drawable);
   if (shade) return lit_colours(scene);
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes.at(instance.mesh);
-    colours.insert(colours.end(), mesh.colours.begin(), mesh.colours.end());
-  }
-  return colours;
-}
-
-// Flags by index in the scene.
-std::vector<bool> two_sided_faces(const Scene& scene) {
-  std::vector<bool> faces;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes.at(instance.mesh);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) faces.push_back(mesh.has_flag(i, kTwoSided));
-  }
-  return faces;
+  return lab::in_world_space(scene, {}).mesh().colours;
 }
 
 // Payloads minus one: triangle indices; the background's 0 becomes lab::kNoTriangle.
@@ -109,18 +95,15 @@ Picture Pipeline::draw(const lab::StageMethods& choice, const View& view) {
     frame_.emplace(size.width, size.height);
     canvas_.emplace(size.width, size.height);
   }
-  if (choice.ours())
-    draw_ours(choice, view, picture);
-  else
+  if (!choice.ours()) {
     draw_composed(choice, view, picture);
-  return picture;
-}
-
-void Pipeline::draw_ours(const lab::StageMethods& choice, const View& view, Picture& picture) {
+    return picture;
+  }
   Backend& by = backend(choice.coverage->info.name);
   const std::uint32_t background = tools::background_of(Payload::colour);
   picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), {background}, view.execution); });
   picture.image = to_image(*frame_);
+  return picture;
 }
 
 void Pipeline::draw_composed(const lab::StageMethods& choice, const View& view, Picture& picture) {
@@ -197,12 +180,10 @@ Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, c
 void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles& triangles,
                     double& spent_ms) {
   std::vector<std::uint8_t> fronts;  // empty: the sign of the snapped area decides the facing
-  lab::ClippingScene seen;
-  if (&method != &lab::facing_methods().front()) {
-    seen = lab::in_view_space(*view.world.scene(), size_of(view));
+  const lab::ClippingScene seen = lab::in_view_space(*view.world.scene(), size_of(view));
+  if (&method != &lab::facing_methods().front())
     spent_ms += milliseconds([&] { fronts = lab::fronts_of(method, seen); });
-  }
-  const auto side_of = [&](const ScreenTriangle& t) -> std::int64_t {
+  const auto side_of = [&](const ScreenTriangle& t) {
     const std::size_t id = t.payload - 1;
     // Facing methods test whole triangles; a triangle that crosses the near plane is judged by its clipped
     // pieces.
@@ -210,20 +191,15 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
       return seen.mesh().positions[vertex].z > -seen.scene.camera.near_z;
     };
     if (fronts.empty() || before_near(3 * id) || before_near(3 * id + 1) || before_near(3 * id + 2))
-      return contract::signed_area(t);
+      return contract::signed_area(t) < 0 ? -1 : 1;
     return fronts[id] != 0 ? 1 : -1;
-  };
-  const Cull mode = view.frontend.cull;
-  const std::vector<bool> two_sided = two_sided_faces(*view.world.scene());
-  const auto is_culled = [&](const ScreenTriangle& t) {
-    if (two_sided[t.payload - 1]) return false;
-    const std::int64_t side = side_of(t);
-    return mode == Cull::both || (mode == Cull::front && side > 0) || (mode == Cull::back && side < 0);
   };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < triangles.snapped.size(); ++i) {
-    if (is_culled(triangles.snapped[i])) continue;
-    triangles.snapped[kept] = triangles.snapped[i];
+    const ScreenTriangle& t = triangles.snapped[i];
+    if (!seen.mesh().has_flag(t.payload - 1, kTwoSided) && !lab::keeps(view.frontend.cull, side_of(t)))
+      continue;
+    triangles.snapped[kept] = t;
     triangles.floats[kept++] = triangles.floats[i];
   }
   triangles.culled = triangles.snapped.size() - kept;
@@ -276,15 +252,12 @@ Pipeline::VisibleIds Pipeline::true_visible_ids(const View& view, const Triangle
     backend(by).draw(triangles.snapped, canvas_->frame.view(), {0}, view.execution);
     return visible_ids_in(canvas_->frame);
   }
-  const auto id_of = [&](std::uint32_t i) {
-    return i == lab::kNoTriangle ? lab::kNoTriangle : triangles.snapped[i].payload - 1;
+  const auto visible_in = [&](const auto& list) {
+    return lab::exact_visible_triangles(std::span(list), window_of(view), view.execution.threads).triangle;
   };
-  const int threads = view.execution.threads;
-  VisibleIds visible =
-      truth == Truth::snapped
-          ? lab::exact_visible_triangles(std::span(triangles.snapped), window_of(view), threads).triangle
-          : lab::exact_visible_triangles(std::span(triangles.floats), window_of(view), threads).triangle;
-  std::transform(visible.begin(), visible.end(), visible.begin(), id_of);
+  VisibleIds visible = truth == Truth::snapped ? visible_in(triangles.snapped) : visible_in(triangles.floats);
+  for (std::uint32_t& i : visible)
+    if (i != lab::kNoTriangle) i = triangles.snapped[i].payload - 1;
   return visible;
 }
 

@@ -59,9 +59,7 @@ void update_mean(double now, double& mean) {
 
 Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
-  state_.execution = start_.execution;
-  state_.reproducible = start_.reproducible;
-  state_.execution.target = resolve(state_.execution.target);
+  start_.execution.target = resolve(start_.execution.target);
 }
 
 void Session::press(Key key) {
@@ -290,7 +288,7 @@ void Session::load(tools::Size size) {
 
 View Session::view_of(std::size_t i, tools::Size size) const {
   const Side& side = sides_[i];
-  View view{*world_, frontend_, state_.execution};
+  View view{*world_, frontend_, start_.execution};
   view.frontend.width = size.width;
   view.frontend.height = size.height;
   view.frontend.cull = side.cull_front ? (side.cull_back ? Cull::both : Cull::front)
@@ -378,7 +376,7 @@ void Session::judge_if_due(std::size_t i, const lab::StageMethods& choice, const
   Side& side = sides_[i];
   const bool fresh = side.judgement && side.judged == state_.version;
   if (state_.errors == Errors::off || !choice.fills() || fresh) return;
-  const bool affordable = state_.reproducible || work_ms + side.judging_ms < kBudget_ms;
+  const bool affordable = start_.reproducible || work_ms + side.judging_ms < kBudget_ms;
   if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
     side.judging_ms *= kDecay;
     return;

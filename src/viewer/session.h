@@ -63,7 +63,6 @@ struct State {
   std::string scene;
   bool stream = false;
   bool lit = true;  // scenes only
-  Execution execution;
   bool along_view = true;
   float speed = 1.0f;  // factor
   bool spinning = false;
@@ -80,7 +79,6 @@ struct State {
   std::uint64_t version = 1;    // of the picture; changes with everything that the picture depends on
   std::string message;
   std::size_t step = 0;  // of a demo: how many steps were taken
-  bool reproducible = false;
 };
 
 class Session {
@@ -118,6 +116,7 @@ class Session {
   // What the magnifier shows, in one side's picture.
   Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }
   std::span<const Step> steps() const { return start_.steps; }
+  bool reproducible() const { return start_.reproducible; }
   const World& world() const { return *world_; }
   const std::vector<std::string>& saved() const { return saved_; }  // files' names
 
