@@ -158,8 +158,7 @@ Fan make_fan(glm::vec3 hub, glm::vec3 u, glm::vec3 v, int spokes, double turn, b
 class ConformanceFans : public Conformance {
  protected:
   void expect_all_once(const Drawable& drawable, const Fan& fan, View view, const std::string& name) {
-    const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-    const std::vector<int> once(pixels, 1);
+    const std::vector<int> once(view.pixels(), 1);
     const auto is_drawn = [&](Cull cull) {
       view.cull = cull;
       return !pipelines().front().triangles(drawable, view).empty();

@@ -34,13 +34,8 @@ namespace edgewise::conformance {
 // The moved sample lies on no edge. A ray from it to the right crosses an edge if the edge spans the sample's
 // height, upper end included and lower end excluded, strictly to the right of the sample.
 
-template <typename T>
-struct Position {
-  T x, y;
-};
-
 // 2^-15 px, as snapped positions are; up to 2^37.
-using SubPosition = Position<std::int64_t>;
+using SubPosition = glm::vec<2, std::int64_t>;
 using Product = contract::int128;
 inline constexpr std::int64_t kPixel = 1 << kMaxSubpixelBits;
 inline constexpr int kBits[] = {kMinSubpixelBits, 8, 12, kMaxSubpixelBits};  // that the suite draws
@@ -97,6 +92,8 @@ struct View {
   int width = 64, height = 64;  // px
   Cull cull = Cull::none;
   int subpixel_bits = 8;
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 class Pipeline {
@@ -130,7 +127,7 @@ class Pipeline {
 
   // The number of triangles that draw each pixel, row by row. Draws each triangle alone.
   std::vector<int> hits(const Drawable& drawable, const View& view) {
-    std::vector<int> all(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), 0);
+    std::vector<int> all(view.pixels(), 0);
     for (const ScreenTriangle& triangle : triangles(drawable, view)) {
       const Framebuffer& frame = draw(std::span(&triangle, 1), view);
       auto hit = all.begin();
@@ -201,8 +198,7 @@ class Conformance : public ::testing::Test {
   }
 
   void expect_nothing(const Drawable& drawable, const View& view, const std::string& what) {
-    const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-    expect_visible_triangles(drawable, view, std::vector<std::uint32_t>(pixels, kNoTriangle), what);
+    expect_visible_triangles(drawable, view, std::vector(view.pixels(), kNoTriangle), what);
   }
 
  private:
