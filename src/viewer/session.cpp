@@ -146,63 +146,37 @@ void Session::act(Command command) {
       state_.*flag = !(state_.*flag);
       return;
     }
-  switch (command) {
-    case Command::slower:
-      state_.speed = std::max(state_.speed / kSpeedStep, kSlowest);
-      break;
-    case Command::faster:
-      state_.speed = std::min(state_.speed * kSpeedStep, kFastest);
-      break;
-    case Command::home:
-      if (!world_ || state_.stream) break;
-      world_->camera() = world_->home();
-      state_.angle = 0.0f;
-      world_->turn(state_.axis, state_.angle);
-      break;
-    case Command::switch_back:
-      if (last_switch_) switch_by(*last_switch_, -1);
-      break;
-    case Command::errors:
-      state_.errors = next_of_three(state_.errors);
-      break;
-    case Command::truth:
-      state_.truth = next_of_three(state_.truth);
-      reset_results();
-      break;
-    case Command::next_error:
-      show_next_error();
-      break;
-    case Command::arrangement:
-      state_.arrangement = next_of_three(state_.arrangement);
-      if (state_.arrangement == Arrangement::one) state_.active = 0;
-      reset_results();
-      break;
-    case Command::other_side:
-      if (state_.arrangement == Arrangement::one)
-        state_.message = "there is one side only; [v] shows two";
-      else
-        state_.active = 1 - state_.active;
-      break;
-    case Command::previous_step:
-      take_step(state_.step - 2);
-      break;
-    case Command::next_step:
-      take_step(state_.step);
-      break;
-    case Command::help:
-      state_.help = !(state_.help && state_.panel);
-      state_.panel |= state_.help;
-      break;
-    case Command::save:
-      save_next_ = true;
-      break;
-    case Command::quit:
-      done_ = true;
-      break;
-    default:
-      switch_by(command, 1);
-      last_switch_ = command;
-  }
+  const std::pair<Command, std::function<void()>> kActions[] = {
+      {Command::slower, [&] { state_.speed = std::max(state_.speed / kSpeedStep, kSlowest); }},
+      {Command::faster, [&] { state_.speed = std::min(state_.speed * kSpeedStep, kFastest); }},
+      {Command::home, [&] { go_home(); }},
+      {Command::switch_back, [&] { switch_by(last_switch_, -1); }},
+      {Command::errors, [&] { state_.errors = next_of_three(state_.errors); }},
+      {Command::next_error, [&] { show_next_error(); }},
+      {Command::other_side, [&] { change_side(); }},
+      {Command::previous_step, [&] { take_step(state_.step - 2); }},
+      {Command::next_step, [&] { take_step(state_.step); }},
+      {Command::help, [&] { state_.panel |= state_.help = !(state_.help && state_.panel); }},
+      {Command::save, [&] { save_next_ = true; }},
+      {Command::quit, [&] { done_ = true; }}};
+  for (const auto& [wanted, action] : kActions)
+    if (command == wanted) return action();
+  switch_by(command, 1);
+  if (command <= Command::light) last_switch_ = command;
+}
+
+void Session::go_home() {
+  if (!world_ || state_.stream) return;
+  world_->camera() = world_->home();
+  state_.angle = 0.0f;
+  world_->turn(state_.axis, state_.angle);
+}
+
+void Session::change_side() {
+  if (state_.arrangement == Arrangement::one)
+    state_.message = "there is one side only; [v] shows two";
+  else
+    state_.active = 1 - state_.active;
 }
 
 void Session::switch_by(Command command, int step) {
@@ -216,9 +190,12 @@ void Session::switch_by(Command command, int step) {
       {Command::facing, [&] { step_method(lab::facing_methods(), choice.facing, step); }},
       {Command::cull_front, [&] { side.cull_front = !side.cull_front; }},
       {Command::cull_back, [&] { side.cull_back = !side.cull_back; }},
-      {Command::light, [&] { state_.lit = !state_.lit; }}};
+      {Command::light, [&] { state_.lit = !state_.lit; }},
+      {Command::truth, [&] { state_.truth = next_of_three(state_.truth); }},
+      {Command::arrangement, [&] { state_.arrangement = next_of_three(state_.arrangement); }}};
   for (const auto& [wanted, action] : kSwitches)
     if (command == wanted) action(), reset_results();
+  if (state_.arrangement == Arrangement::one) state_.active = 0;
 }
 
 void Session::choose(std::string_view method) {

@@ -122,6 +122,8 @@ class Session {
 
  private:
   void act(Command command);
+  void go_home();
+  void change_side();
   void switch_by(Command command, int step);
   void move(Command command, float seconds);
   void load(tools::Size size);
@@ -145,7 +147,7 @@ class Session {
   int panel_width_px_ = 0;
   bool demo_left_ = false;  // the user changed the state since the demo's last step
   std::set<Key> held_;
-  std::optional<Command> last_switch_;
+  Command last_switch_ = Command::quit;  // quit: none
   std::optional<Pixel> pointer_, focus_;
   Pixel first_difference_{0, 0};
   bool done_ = false, save_next_ = false;
