@@ -6,7 +6,6 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -66,7 +65,7 @@ void Session::press(Key key) {
   const auto command = command_of(key);
   if (!command) return;
   demo_left_ |= *command < Command::panel;
-  if (is_held(*command))
+  if (*command <= Command::look_right)
     held_.insert(key);
   else
     act(*command);
@@ -80,7 +79,11 @@ void Session::type(std::span<const Stroke> strokes, const std::function<void(dou
   for (const Stroke& stroke : strokes) {
     const Key* const key = std::get_if<Key>(&stroke);
     if (key != nullptr) press(*key);
-    if (const Named* const named = std::get_if<Named>(&stroke)) choose(named->method);
+    if (const Named* const named = std::get_if<Named>(&stroke)) {
+      put(named->method, sides_[state_.active].choice);
+      reset_results();
+      ++state_.version;
+    }
     if (pass)
       pass(seconds_of(stroke));
     else
@@ -196,13 +199,6 @@ void Session::switch_by(Command command, int step) {
   for (const auto& [wanted, action] : kSwitches)
     if (command == wanted) action(), reset_results();
   if (state_.arrangement == Arrangement::one) state_.active = 0;
-}
-
-void Session::choose(std::string_view method) {
-  Side& side = sides_[state_.active];
-  if (!put(method, side.choice)) throw std::invalid_argument("unknown method '" + std::string(method) + "'");
-  reset_results();
-  ++state_.version;
 }
 
 // Forgets what was measured and counted with other methods or at another size.

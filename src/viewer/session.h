@@ -87,8 +87,6 @@ class Session {
 
   void press(Key key);
   void release(Key key);
-  // Selects a method for its stage on the active side. Throws std::invalid_argument for an unknown name.
-  void choose(std::string_view method);
   // Types strokes into a session that has been drawn, and draws after each, because some keys depend on the
   // last frame. `pass` calls advance() for a stroke's time; null: once for all of it.
   void type(std::span<const Stroke> strokes, const std::function<void(double)>& pass = nullptr);

@@ -252,7 +252,7 @@ TEST(Enlarge, MakesSquares) {
   EXPECT_THROW(enlarge({2, 1, {5, 6}}, 8193), std::invalid_argument);
 }
 
-// ---- The host's locale
+// ---- The host's locale, and the caller's floating-point state
 
 struct GroupedNumbers : std::numpunct<char> {
   char do_thousands_sep() const override { return '.'; }
@@ -260,48 +260,46 @@ struct GroupedNumbers : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
 };
 
+// Writes and reads a file of each kind.
+auto written_and_read(const TempDir& dir) {
+  const fs::path png = dir.path() / "a.png", ppm = dir.path() / "a.PPM", pfm = dir.path() / "b.pfm";
+  const fs::path file = write_colours(dir, "a.pfm", "2 1", {std::nanf(""), 0.1f, 0.3f, 1e-40f, 0.7f, 2.0f});
+  const Image image = read_image(file);
+  write_image(png, image);
+  const std::string colours = file_content(png);
+  write_grey16(png, {2, 1, {7, 65535}});
+  write_image(ppm, test_image(1280, 2));
+  write_pfm(pfm, {1280, 1, std::vector<float>(1280, 0.1f)});
+  const Difference d = difference(image, read_image(png));
+  return std::tuple(colours, file_content(png), read_grey16(png).pixels, file_content(ppm), file_content(pfm),
+                    read_image(ppm).pixels, read_pfm(pfm).depth01, image.pixels, d.picture.pixels, d.largest,
+                    difference(read_pfm(pfm), read_pfm(pfm)).count);
+}
+
 TEST(Locale, OfTheHostChangesNoFile) {
   const TempDir dir;
-  const fs::path ppm = dir.path() / "a.PPM", pfm = dir.path() / "a.pfm", text = dir.path() / "a",
+  const fs::path text = dir.path() / "a",
+                 obj = dir.write("a.obj", "v 1234.5 0.25 1e-400\nv 12345 1.e1 0\nv 0 1 0\nf 1 2 3\n"),
                  bad = dir.write("b.obj", std::string(2000, '\n') + "v 1,5 0 0\n");
+  const auto expected = written_and_read(dir);
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new GroupedNumbers));
-  const Image image = test_image(1280, 2);
-  const DepthMap map{1280, 2, std::vector<float>(2560, 0.5f)};
-  write_image(ppm, image);
-  write_pfm(pfm, map);
+  const auto found = written_and_read(dir);
   AtomicFile file(text);
   file.stream() << 1234.5;
   file.commit();
-  EXPECT_EQ(read_image(ppm).pixels, image.pixels);
-  EXPECT_EQ(read_pfm(pfm).depth01, map.depth01);
-  const Scene scene =
-      read_obj(dir.write("a.obj", "v 1234.5 0.25 1e-400\nv 12345 1.e1 0\nv 0 1 0\nf 1 2 3\n"));
-  EXPECT_EQ(scene.meshes[0].positions,
-            (std::vector<glm::vec3>{{1234.5, 0.25, 0}, {12345, 10, 0}, {0, 1, 0}}));
+  const Scene scene = read_obj(obj);
   const std::string message = message_of([&] { read_obj(bad); });
   std::locale::global(before);
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(scene.meshes[0].positions,
+            (std::vector<glm::vec3>{{1234.5, 0.25, 0}, {12345, 10, 0}, {0, 1, 0}}));
   EXPECT_EQ(message, bad.string() + ": line 2001: '1,5' is not a finite coordinate");
-  EXPECT_TRUE(file_content(ppm).starts_with("P6\n1280 2\n255\n"));
-  EXPECT_TRUE(file_content(pfm).starts_with("Pf\n1280 2\n-1.0\n"));
   EXPECT_EQ(file_content(text), "1234.5");
 }
 
-// ---- The caller's floating-point state
-
 TEST(FloatMode, ChangesNoPictureOfAFile) {
   const TempDir dir;
-  const fs::path png = dir.path() / "a.png", depth = dir.path() / "b.pfm";
-  const fs::path file = write_colours(dir, "a.pfm", "2 1", {std::nanf(""), 0.1f, 0.3f, 1e-40f, 0.7f, 2.0f});
-  testing::expect_same_in_every_float_mode([&](int) {
-    const Image image = read_image(file);
-    write_image(png, image);
-    const std::string colours = file_content(png);
-    write_grey16(png, {2, 1, {7, 65535}});
-    write_pfm(depth, {2, 1, {0.1f, std::nanf("")}});
-    const Difference d = difference(image, read_image(png));
-    return std::tuple(colours, file_content(png), read_grey16(png).pixels, file_content(depth), image.pixels,
-                      d.picture.pixels, d.largest, difference(read_pfm(depth), read_pfm(depth)).count);
-  });
+  testing::expect_same_in_every_float_mode([&](int) { return written_and_read(dir); });
 }
 
 }  // namespace
