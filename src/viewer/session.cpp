@@ -368,17 +368,13 @@ void Session::show_next_error() {
     state_.message = fmt::format("{} at {}, {}", what, at.x, at.y);
   };
   if (state_.arrangement == Arrangement::difference) {
-    if (state_.differing > 0)
-      show(first_difference_, "first difference");
-    else
-      state_.message = "no difference";
+    state_.message = "no difference";
+    if (state_.differing > 0) show(first_difference_, "first difference");
     return;
   }
   const auto& judgement = sides_[state_.active].judgement;
-  if (!judgement || state_.errors == Errors::off) {
-    state_.message = "errors are not counted; [e] counts them";
-    return;
-  }
+  state_.message = "errors are not counted; [e] counts them";
+  if (!judgement || state_.errors == Errors::off) return;
   const std::vector<lab::Mark>& marks = judgement->marks;
   const std::size_t width = static_cast<std::size_t>(side_size_.width);
   const Pixel from = focus_.value_or(Pixel{-1, 0});
