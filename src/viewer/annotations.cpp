@@ -86,6 +86,15 @@ glm::dvec3 centre_of(const Mesh& mesh, std::size_t begin, std::size_t end) {
   return sum / static_cast<double>(3 * (end - begin));
 }
 
+// Adds a label centred on a point in the world, if the strip shows it.
+void add_label(const View& view, glm::dvec3 world, const Strip& strip, std::string words,
+               std::uint32_t colour, std::vector<Label>& labels) {
+  const glm::dvec3 p = view.pixels * (world - view.origin);
+  const double x = p.x / p.z, y = p.y / p.z;
+  if (p.z >= view.volume.near_z && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
+    labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
+}
+
 }  // namespace
 
 std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states) {
@@ -121,19 +130,6 @@ std::size_t vertex_count(const Scene& scene) {
     vertices += scene.meshes.at(instance.mesh).positions.size();
   return vertices;
 }
-
-namespace {
-
-// Adds a label centred on a point in the world, if the strip shows it.
-void add_label(const View& view, glm::dvec3 world, const Strip& strip, std::string words,
-               std::uint32_t colour, std::vector<Label>& labels) {
-  const glm::dvec3 p = view.pixels * (world - view.origin);
-  const double x = p.x / p.z, y = p.y / p.z;
-  if (p.z >= view.volume.near_z && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
-    labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
-}
-
-}  // namespace
 
 void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label>& labels) {
   if (vertex_count(scene) > kMostLabels) return;

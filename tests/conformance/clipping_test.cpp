@@ -79,11 +79,9 @@ INSTANTIATE_TEST_SUITE_P(Planes, ConformanceExactClips, ::testing::ValuesIn(kPla
 constexpr lab::Size kSize{64, 48};
 
 // The camera is at the origin and looks along -z.
-Scene seen(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-           float far_z = 5000.0f) {
+Scene seen(const Mesh& mesh, float far_z) {
   Scene scene;
-  Mesh mesh{positions, triangles, std::vector<std::uint32_t>(triangles.size(), 0)};
-  scene.meshes.push_back(std::move(mesh));
+  scene.meshes.push_back(mesh);
   scene.instances.push_back({});
   scene.camera.near_z = 0.5f;
   scene.camera.far_z = far_z;
@@ -110,7 +108,7 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheCameraAreClippedCorrectly
       const glm::vec3 held(w * random.uniform(-0.5f, 0.5f), held_y, -w);
       t[2] = 2.0f * held - 0.5f * (t[0] + t[1]);
     }
-    const Scene scene = seen({t.begin(), t.end()}, {{0, 1, 2}});
+    const Scene scene = seen({{t.begin(), t.end()}, {{0, 1, 2}}, {0}}, 5000.0f);
     const lab::ClippingOracle oracle(scene, kSize, Cull::none);
     ++behind[std::count_if(t.begin(), t.end(), [](glm::vec3 v) { return v.z > -0.5f; })];
     for (const int bits : kClippedBits) {
@@ -137,27 +135,24 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheCameraAreClippedCorrectly
 
 // A fan on a tilted plane around a hub in view. Its rim lies beyond all six planes, so every triangle is
 // clipped. The rim is out of view, so every pixel must be hit once.
-struct Fan {
-  std::vector<glm::vec3> vertices;
-  std::vector<glm::uvec3> triangles;
-};
-Fan make_fan(glm::vec3 hub, glm::vec3 u, glm::vec3 v, int spokes, double turn, bool reversed) {
-  Fan fan;
+Mesh make_fan(glm::vec3 hub, glm::vec3 u, glm::vec3 v, int spokes, double turn, bool reversed) {
+  Mesh fan;
   for (int i = 0; i < spokes; ++i) {
     const double angle = turn + 2 * 3.14159265358979 * i / spokes;
-    fan.vertices.push_back(hub + static_cast<float>(std::cos(angle)) * u +
+    fan.positions.push_back(hub + static_cast<float>(std::cos(angle)) * u +
                            static_cast<float>(std::sin(angle)) * v);
   }
   const auto n = static_cast<unsigned>(spokes);
   for (unsigned i = 0; i < n; ++i)
     fan.triangles.push_back(reversed ? glm::uvec3(n, (i + 1) % n, i) : glm::uvec3(n, i, (i + 1) % n));
-  fan.vertices.push_back(hub);
+  fan.positions.push_back(hub);
+  fan.colours.resize(fan.triangles.size());
   return fan;
 }
 
 class ConformanceFans : public Conformance {
  protected:
-  void expect_all_once(const Drawable& drawable, const Fan& fan, View view, const std::string& name) {
+  void expect_all_once(const Drawable& drawable, const Mesh& fan, View view, const std::string& name) {
     const std::vector<int> once(view.pixels(), 1);
     const auto is_drawn = [&](Cull cull) {
       view.cull = cull;
@@ -190,9 +185,9 @@ TEST_F(ConformanceFans, ScreenFansCutByAllSixPlanesHitEachPixelOnce) {
     // Depth changes by less than 0.3 over the screen, and by more than 1 over the fan.
     const glm::vec2 slope(random.uniform(2e-4f, 1e-3f), random.uniform(2e-4f, 1e-3f));
     const float reach = random.uniform(60'000.0f, 100'000.0f);
-    const Fan fan = make_fan(hub, {reach, 0, reach * slope.x}, {0, reach, reach * slope.y}, 4 + trial % 21,
+    const Mesh fan = make_fan(hub, {reach, 0, reach * slope.x}, {0, reach, reach * slope.y}, 4 + trial % 21,
                              random.uniform(0.0f, 6.0f), trial % 2 == 0);
-    expect_all_once(conformance::stream_of(fan.vertices, fan.triangles), fan, {},
+    expect_all_once(conformance::stream_of(fan.positions, fan.triangles), fan, {},
                     "trial " + std::to_string(trial));
   }
 }
@@ -206,8 +201,8 @@ TEST_F(ConformanceFans, CameraFansCutByAllSixPlanesHitEachPixelOnce) {
     // Tilted: outside the view, one side lies behind the camera and the other beyond the far plane.
     const glm::vec3 u(reach, 0, reach * random.uniform(0.1f, 0.7f)),
         v(0, reach, reach * random.uniform(0.1f, 0.7f));
-    const Fan fan = make_fan(hub, u, v, 4 + trial % 21, random.uniform(0.0f, 6.0f), trial % 2 == 0);
-    expect_all_once(seen(fan.vertices, fan.triangles, 1000.0f), fan, {kSize.width, kSize.height},
+    const Mesh fan = make_fan(hub, u, v, 4 + trial % 21, random.uniform(0.0f, 6.0f), trial % 2 == 0);
+    expect_all_once(seen(fan, 1000.0f), fan, {kSize.width, kSize.height},
                     "trial " + std::to_string(trial));
   }
 }

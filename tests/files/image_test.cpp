@@ -119,27 +119,16 @@ TEST(Ppm, EveryKindIsRead) {
             (Colours{rgb(0, 85, 170), rgb(255, 255, 255)}));
 }
 
-TEST(Grey16, IsWrittenAsPngAndReadBack) {
+TEST(Grey16, IsReadFromFilesOfGreyAndWrittenAsPngOnly) {
   const TempDir dir;
-  const fs::path path = dir.path() / "a.png", colours = dir.write("c.ppm", "P6 1 1 255\nabc");
-  Grey16 image{256, 256, {}};
-  Colours rounded;  // to 8 bits
-  for (std::uint32_t v = 0; v < 65536; ++v) {
-    image.pixels.push_back(static_cast<std::uint16_t>(v));
-    const auto grey = static_cast<std::uint32_t>(v * 255.0 / 65535.0 + 0.5);
-    rounded.push_back(rgb(grey, grey, grey));
-  }
-  write_grey16(path, image);
-  EXPECT_EQ(read_grey16(path).width, 256);
-  EXPECT_EQ(read_grey16(path).pixels, image.pixels);
-  EXPECT_EQ(read_image(path).pixels, rounded);
+  const fs::path colours = dir.write("c.ppm", "P6 1 1 255\nabc");
   for (const auto& [text, pixel] : std::vector<std::pair<std::string, std::uint16_t>>{
            {"P5 1 1 255\n\2", 2 * 257}, {"P5 1 1 65535\n\x12\x34", 0x1234}, {"P5 1 1 1023\n\3\xff", 65535}})
     EXPECT_EQ(read_grey16(dir.write("b.pgm", text)).pixels, std::vector<std::uint16_t>{pixel}) << text;
   EXPECT_EQ(message_of([&] { read_grey16(colours); }), colours.string() + ": is no picture of grey");
-  EXPECT_THROW(write_grey16(dir.path() / "d.ppm", image), std::runtime_error);
+  EXPECT_THROW(write_grey16(dir.path() / "d.ppm", {1, 1, {1}}), std::runtime_error);
   EXPECT_THROW(write_grey16(dir.path() / "d.png", {2, 2, {1, 2, 3}}), std::runtime_error);
-  EXPECT_EQ(dir.count(), 3u);
+  EXPECT_EQ(dir.count(), 2u);
 }
 
 TEST(Picture, MalformedFilesAreRefusedWithTheReason) {
