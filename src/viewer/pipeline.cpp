@@ -8,6 +8,7 @@
 #include "files/pictures.h"
 #include "frontend/shade.h"
 #include "lab/cases/backend_comparison.h"
+#include "lab/cases/to_stream.h"
 #include "lab/clipping/truth.h"
 #include "lab/coverage/score.h"
 #include "lab/view_space.h"
@@ -38,17 +39,6 @@ class Recorder final : public Backend {
     triangles.assign(drawn.begin(), drawn.end());
   }
 };
-
-// Exact with 8 subpixel bits: coordinates have at most 24 bits that may not be 0.
-lab::FloatTriangle as_floats(const ScreenTriangle& t) {
-  lab::FloatTriangle floats{{}, t.payload};
-  for (int i = 0; i < 3; ++i) {
-    floats.at.x_px[i] = static_cast<float>(t.x_q15[i]) / contract::kPixel_q15;
-    floats.at.y_px[i] = static_cast<float>(t.y_q15[i]) / contract::kPixel_q15;
-    floats.at.z01[i] = static_cast<float>(contract::depth01(t.z[i]));
-  }
-  return floats;
-}
 
 std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   std::vector<std::uint32_t> colours;
@@ -169,10 +159,8 @@ Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, c
   frame.backend = std::move(recorder);
   spent_ms += milliseconds([&] { method.draw(seen, frame); });
   triangles.snapped = std::move(recorded);
-  for (ScreenTriangle& t : triangles.snapped) {
-    ++t.payload;
-    triangles.floats.push_back(as_floats(t));
-  }
+  for (ScreenTriangle& t : triangles.snapped) ++t.payload;
+  triangles.floats = lab::as_floats(triangles.snapped);
   return triangles;
 }
 

@@ -73,19 +73,6 @@ inline Product area(std::span<const SubPosition> polygon) {
   return sum;
 }
 
-// The samples exactly on the segment between two points, which only the tie rule decides.
-inline int ties(const SubPosition& p, const SubPosition& q, int width, int height) {
-  int count = 0;
-  for (std::int64_t y = 0; y < height; ++y)
-    for (std::int64_t x = 0; x < width; ++x) {
-      const Product dx = x * kPixel + kPixel / 2 - p.x, dy = y * kPixel + kPixel / 2 - p.y, ex = q.x - p.x,
-                    ey = q.y - p.y;
-      const Product along = dx * ex + dy * ey;
-      count += dx * ey == dy * ex && along > 0 && along < ex * ex + ey * ey;
-    }
-  return count;
-}
-
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;  // payload where nothing was drawn
 
 struct View {
