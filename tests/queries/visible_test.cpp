@@ -1,11 +1,11 @@
 // What a frame shows, against naive counts, and queries of boxes, against drawing what lies in them.
 #include "edgewise/visible.h"
+#include "edgewise/builtin.h"
 #include "edgewise/draw.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -139,19 +139,6 @@ TEST(Visible, BoxIsHiddenByAWallOnlyIfItIsBehindAndProjected) {
   EXPECT_THROW(visible(before, scene, frame), std::invalid_argument);
 }
 
-// The faces of a box.
-Scene faces_of(const Bounds& box, const Camera& camera) {
-  Scene scene;
-  scene.camera = camera;
-  Mesh& mesh = scene.meshes.emplace_back();
-  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  constexpr std::array<glm::uvec4, 6> kFaces{
-      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
-  for (const glm::uvec4 face : kFaces) mesh.add_quad(face, 0);
-  scene.instances.push_back({.scale = box.high - box.low, .translation = box.low});
-  return scene;
-}
-
 // A frame that hides the box in all pixels but one, where what lies in the box barely wins. It does so at
 // each end of the pixels that it has, and where it is nearest.
 void expect_seen(const Scene& scene, const Bounds& box, int width, int height, int bits,
@@ -226,7 +213,9 @@ TEST(Visible, FacingBoxIsSeenInEachColumnAndAtItsDepth) {
       camera.yaw = random.uniform(-0.001f, 0.001f);  // depth errs most where it hardly changes
     const glm::dvec3 low = camera.position + vector(-0.5f, 0.0f) + glm::dvec3(0, 0, -3),
                      high = camera.position + vector(0.0f, 0.5f) + glm::dvec3(0, 0, -1.6);
-    Scene scene = faces_of({low, high}, camera);
+    Scene scene = std::get<Scene>(find_scene("cube").make({}));
+    scene.camera = camera;
+    scene.instances[0] = {.scale = 0.5 * (high - low), .translation = 0.5 * (low + high)};
     if (const CameraMatrices m = matrices_of(camera, 40 / 30.0); trial % 5 == 1)
       scene.matrices = m;
     else if (trial % 5 == 2 && trial % 3 != 0)  // a product far from the origin has no inverse in double
