@@ -116,10 +116,8 @@ class Pipeline {
   std::vector<int> hits(const Drawable& drawable, const View& view) {
     std::vector<int> all(view.pixels(), 0);
     for (const ScreenTriangle& triangle : triangles(drawable, view)) {
-      const Framebuffer& frame = draw(std::span(&triangle, 1), view);
-      auto hit = all.begin();
-      for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x, ++hit) *hit += frame.payload_row(y)[x] != kNoTriangle;
+      const auto payloads = lab::payloads_of(draw(std::span(&triangle, 1), view));
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] += payloads[i] != kNoTriangle;
     }
     return all;
   }

@@ -135,6 +135,15 @@ def test_16_bit_grey_comes_back(tmp_path):
     assert (difference.differing, difference.largest, difference.scale) == (65536, 65535, 65535)  # 65535 + 1 is 0
 
 
+def test_8_bits_equal_the_same_values_of_16():
+    deep = np.arange(256, dtype=np.uint16)[None] * np.uint16(257)
+    colours = np.repeat(np.arange(256, dtype=np.uint8)[None, :, None], 3, axis=-1)
+    assert edgewise.diff(deep, colours).differing == 0
+    deep[0, 7] ^= 1
+    difference = edgewise.diff(deep, colours)
+    assert (difference.differing, difference.largest, difference.first) == (1, 1, (7, 0))
+
+
 @pytest.mark.parametrize("dtype", "?bBhilqLQefdFOSUm")
 def test_other_types_are_no_pictures(tmp_path, dtype):
     array = np.zeros((2, 5), dtype)
