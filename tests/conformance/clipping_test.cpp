@@ -140,7 +140,7 @@ Mesh make_fan(glm::vec3 hub, glm::vec3 u, glm::vec3 v, int spokes, double turn, 
   for (int i = 0; i < spokes; ++i) {
     const double angle = turn + 2 * 3.14159265358979 * i / spokes;
     fan.positions.push_back(hub + static_cast<float>(std::cos(angle)) * u +
-                           static_cast<float>(std::sin(angle)) * v);
+                            static_cast<float>(std::sin(angle)) * v);
   }
   const auto n = static_cast<unsigned>(spokes);
   for (unsigned i = 0; i < n; ++i)
@@ -187,7 +187,7 @@ TEST_F(ConformanceFans, CutByAllSixPlanesHitEachPixelOnce) {
     const glm::vec2 slope(random.uniform(2e-4f, 1e-3f), random.uniform(2e-4f, 1e-3f));
     const float reach = random.uniform(60'000.0f, 100'000.0f);
     const Mesh fan = make_fan(hub, {reach, 0, reach * slope.x}, {0, reach, reach * slope.y}, 4 + trial % 21,
-                             random.uniform(0.0f, 6.0f), trial % 2 == 0);
+                              random.uniform(0.0f, 6.0f), trial % 2 == 0);
     expect_all_once(conformance::stream_of(fan.positions, fan.triangles), fan, {}, what);
 
     const auto number = [&](float low, float high) { return of_camera.uniform(low, high); };

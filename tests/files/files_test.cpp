@@ -109,7 +109,6 @@ TEST(ObjFile, EveryNotationOfATriangleIsReadTheSame) {
   }
 }
 
-// Extreme numbers become the nearest float, or 0 if they are too small.
 TEST(ObjFile, ExtremeNumbersBecomeTheNearestFloat) {
   const std::string zeros(400, '0');
   const Mesh mesh = read_mesh("v 1e-400 -1e-99999 0e400\nv 1" + zeros + "e-400 0." + zeros +

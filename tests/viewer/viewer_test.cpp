@@ -269,7 +269,9 @@ TEST(Viewer, TurnsObjects) {
   const Image home = type(session, "").picture;
   EXPECT_NE(type(session, "r<1>").picture.pixels, home.pixels);
   EXPECT_GT(session.state().angle, 0.5f);
+  EXPECT_FALSE(session.still());
   EXPECT_EQ(type(session, "r0").picture.pixels, home.pixels);
+  EXPECT_EQ(session.side(0).judged, session.state().version);
   type(session, "r<1>");
   const glm::mat4 model = model_matrix({}, session.world().scene()->instances[0]);
   EXPECT_NEAR(glm::length(glm::vec3(model[3])), 0.0f, 1e-5f) << "the cube's centre stays in place";
@@ -386,14 +388,6 @@ TEST(Viewer, FitsAnySize) {
       ASSERT_EQ(screen.picture.pixels.size(), static_cast<std::size_t>(size.width * size.height));
     }
   }
-}
-
-TEST(Viewer, CountsErrorsOnceAMovingSceneStops) {
-  Session session = session_of("cubes");
-  type(session, "ur");  // turning
-  EXPECT_FALSE(session.still());
-  type(session, "r");
-  EXPECT_EQ(session.side(0).judged, session.state().version);
 }
 
 TEST(Viewer, CountsErrorsOfLargeScenesOnRequestOnly) {
