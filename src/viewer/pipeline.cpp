@@ -47,8 +47,7 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
     return colours;
   }
   const Scene& scene = std::get<Scene>(drawable);
-  if (shade) return lit_colours(scene);
-  return lab::in_world_space(scene, {}).mesh().colours;
+  return shade ? lit_colours(scene) : lab::in_world_space(scene, {}).mesh().colours;
 }
 
 // Payloads minus one: triangle indices; the background's 0 becomes lab::kNoTriangle.
