@@ -75,16 +75,15 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   throw system_error(path_, errno, exists_ ? "cannot be replaced in its folder" : kUnwritable);
 }
 
-void AtomicFile::write_directly() {
-  const auto descriptor = descriptor_of(target_);
-  const int error = write_all(descriptor ? fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
-                                         : open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC),
-                              stream_.view());
-  if (error != 0 && error != EPIPE) throw system_error(path_, error, kUnwritable);
-}
-
 void AtomicFile::commit() {
-  if (direct_) return write_directly();
+  if (direct_) {
+    const auto open_one = descriptor_of(target_);
+    const int error = write_all(open_one ? fcntl(*open_one, F_DUPFD_CLOEXEC, 0)
+                                         : open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC),
+                                stream_.view());
+    if (error != 0 && error != EPIPE) throw system_error(path_, error, kUnwritable);
+    return;
+  }
   // Not derived from the final name, which may already have the maximum length.
   static std::atomic<unsigned> counter = 0;
   fs::path temporary;

@@ -23,8 +23,6 @@ class AtomicFile {
   void commit();
 
  private:
-  void write_directly();
-
   std::filesystem::path path_, target_;  // as given; without links, and absolute
   bool exists_ = false, direct_ = false;
   std::ostringstream stream_;

@@ -187,10 +187,9 @@ Picture read_picture(const fs::path& path, std::vector<std::string>* warnings) {
 
 Image to_image(const fs::path& path, const Picture& picture) {
   const DefaultFloatState state;
-  Image image;
   if (const auto* const samples = std::get_if<Samples>(&picture)) {
     const auto reduced = [](std::uint16_t sample) { return (sample * 255u + 32767u) / 65535u; };
-    image = {samples->width, samples->height, {}};
+    Image image{samples->width, samples->height, {}};
     image.pixels.reserve(samples->pixels.size());
     for (const auto& [r, g, b, alpha] : samples->pixels)
       image.pixels.push_back(rgb(reduced(r), reduced(g), reduced(b)));
@@ -201,7 +200,7 @@ Image to_image(const fs::path& path, const Picture& picture) {
   const auto reduced = [](float value) {  // NaN becomes 0
     return value > 0.0f ? static_cast<std::uint32_t>(std::min(value, 1.0f) * 255.0f + 0.5f) : 0u;
   };
-  image = {map.width, map.height, {}};
+  Image image{map.width, map.height, {}};
   image.pixels.reserve(map.values.size() / 3);
   for (auto v = map.values.begin(); v != map.values.end(); v += 3)
     image.pixels.push_back(rgb(reduced(v[0]), reduced(v[1]), reduced(v[2])));

@@ -4,16 +4,10 @@
 
 namespace edgewise::tools {
 
-namespace {
-
-// 2^24 over the golden ratio. A multiplication by it moves neighbouring numbers far apart (Knuth, The Art of
-// Computer Programming, volume 3, section 6.4). It is odd, so it permutes the 24-bit numbers.
-constexpr std::uint32_t kSpread = 0x9E3779;
-static_assert(kSpread % 2 == 1);
-
-}  // namespace
-
 Image picture_of(const Framebuffer& frame, Payload payload) {
+  // 2^24 over the golden ratio. A multiplication by it moves neighbouring numbers far apart (Knuth, The Art
+  // of Computer Programming, volume 3, section 6.4). It is odd, so it permutes the 24-bit numbers.
+  constexpr std::uint32_t kSpread = 0x9E3779;
   Image image = to_image(frame);
   if (payload == Payload::colour) return image;
   // The background's id + 1 wraps to 0, which is black.

@@ -78,12 +78,13 @@ const Kind& kind_of(const FaceState& face) {
   return kind == kKinds.end() ? kKinds.back() : *kind;
 }
 
-// The mean of the corners of triangles begin … end - 1.
-glm::dvec3 centre_of(const Mesh& mesh, std::size_t begin, std::size_t end) {
-  glm::dvec3 sum(0.0);
-  for (std::size_t t = begin; t < end; ++t)
-    for (int k = 0; k < 3; ++k) sum += glm::dvec3(mesh.positions[mesh.triangles[t][k]]);
-  return sum / static_cast<double>(3 * (end - begin));
+// Adds a label centred on a point in the world, if the strip shows it.
+void add_label(const View& view, glm::dvec3 world, const Strip& strip, std::string words,
+               std::uint32_t colour, std::vector<Label>& labels) {
+  const glm::dvec3 p = view.pixels * (world - view.origin);
+  const double x = p.x / p.z, y = p.y / p.z;
+  if (p.z >= view.volume.near_z && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
+    labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
 }
 
 }  // namespace
@@ -96,10 +97,12 @@ std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleS
     const glm::dmat4 model = model_matrix(mesh, instance);
     for (std::size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
       TriangleState state = states[id];
+      glm::dvec3 sum(0.0);  // of the corners
       do {
+        for (int k = 0; k < 3; ++k) sum += glm::dvec3(mesh.positions[mesh.triangles[end][k]]);
         state = std::max(state, states[id++]);
       } while (++end < mesh.triangles.size() && mesh.has_flag(end, kSameFace));
-      const glm::dvec3 centre(model * glm::dvec4(centre_of(mesh, begin, end), 1.0));
+      const glm::dvec3 centre(model * glm::dvec4(sum / static_cast<double>(3 * (end - begin)), 1.0));
       faces.push_back({centre, state, mesh.has_flag(begin, kTwoSided)});
     }
   }
@@ -121,19 +124,6 @@ std::size_t vertex_count(const Scene& scene) {
     vertices += scene.meshes.at(instance.mesh).positions.size();
   return vertices;
 }
-
-namespace {
-
-// Adds a label centred on a point in the world, if the strip shows it.
-void add_label(const View& view, glm::dvec3 world, const Strip& strip, std::string words,
-               std::uint32_t colour, std::vector<Label>& labels) {
-  const glm::dvec3 p = view.pixels * (world - view.origin);
-  const double x = p.x / p.z, y = p.y / p.z;
-  if (p.z >= view.volume.near_z && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
-    labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
-}
-
-}  // namespace
 
 void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label>& labels) {
   if (vertex_count(scene) > kMostLabels) return;

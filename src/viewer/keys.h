@@ -43,9 +43,6 @@ enum class Command : std::uint8_t {
   panel, previous_step, next_step, help, save, quit,
 };
 // clang-format on
-constexpr bool is_held(Command command) {
-  return command <= Command::look_right;
-}
 
 struct Binding {
   constexpr Binding(Key k, Command c) : key(k), command(c) {}

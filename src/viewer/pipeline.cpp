@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "edgewise/contract.h"
 #include "files/pictures.h"
 #include "frontend/shade.h"
 #include "lab/cases/backend_comparison.h"
+#include "lab/cases/to_stream.h"
 #include "lab/clipping/truth.h"
 #include "lab/coverage/score.h"
 #include "lab/view_space.h"
@@ -40,17 +40,6 @@ class Recorder final : public Backend {
   }
 };
 
-// Exact with 8 subpixel bits: coordinates have at most 24 bits that may not be 0.
-lab::FloatTriangle as_floats(const ScreenTriangle& t) {
-  lab::FloatTriangle floats{{}, t.payload};
-  for (int i = 0; i < 3; ++i) {
-    floats.at.x_px[i] = static_cast<float>(t.x_q15[i]) / contract::kPixel_q15;
-    floats.at.y_px[i] = static_cast<float>(t.y_q15[i]) / contract::kPixel_q15;
-    floats.at.z01[i] = static_cast<float>(contract::depth01(t.z[i]));
-  }
-  return floats;
-}
-
 std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   std::vector<std::uint32_t> colours;
   if (const auto* stream = std::get_if<TriangleStream>(&drawable)) {
@@ -58,22 +47,7 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
     return colours;
   }
   const Scene& scene = std::get<Scene>(drawable);
-  if (shade) return lit_colours(scene);
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes.at(instance.mesh);
-    colours.insert(colours.end(), mesh.colours.begin(), mesh.colours.end());
-  }
-  return colours;
-}
-
-// Flags by index in the scene.
-std::vector<bool> two_sided_faces(const Scene& scene) {
-  std::vector<bool> faces;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes.at(instance.mesh);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) faces.push_back(mesh.has_flag(i, kTwoSided));
-  }
-  return faces;
+  return shade ? lit_colours(scene) : lab::in_world_space(scene, {}).mesh().colours;
 }
 
 // Payloads minus one: triangle indices; the background's 0 becomes lab::kNoTriangle.
@@ -109,18 +83,15 @@ Picture Pipeline::draw(const lab::StageMethods& choice, const View& view) {
     frame_.emplace(size.width, size.height);
     canvas_.emplace(size.width, size.height);
   }
-  if (choice.ours())
-    draw_ours(choice, view, picture);
-  else
+  if (!choice.ours()) {
     draw_composed(choice, view, picture);
-  return picture;
-}
-
-void Pipeline::draw_ours(const lab::StageMethods& choice, const View& view, Picture& picture) {
+    return picture;
+  }
   Backend& by = backend(choice.coverage->info.name);
   const std::uint32_t background = tools::background_of(Payload::colour);
   picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), {background}, view.execution); });
   picture.image = to_image(*frame_);
+  return picture;
 }
 
 void Pipeline::draw_composed(const lab::StageMethods& choice, const View& view, Picture& picture) {
@@ -187,22 +158,18 @@ Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, c
   frame.backend = std::move(recorder);
   spent_ms += milliseconds([&] { method.draw(seen, frame); });
   triangles.snapped = std::move(recorded);
-  for (ScreenTriangle& t : triangles.snapped) {
-    ++t.payload;
-    triangles.floats.push_back(as_floats(t));
-  }
+  for (ScreenTriangle& t : triangles.snapped) ++t.payload;
+  triangles.floats = lab::as_floats(triangles.snapped);
   return triangles;
 }
 
 void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles& triangles,
                     double& spent_ms) {
   std::vector<std::uint8_t> fronts;  // empty: the sign of the snapped area decides the facing
-  lab::ClippingScene seen;
-  if (&method != &lab::facing_methods().front()) {
-    seen = lab::in_view_space(*view.world.scene(), size_of(view));
+  const lab::ClippingScene seen = lab::in_view_space(*view.world.scene(), size_of(view));
+  if (&method != &lab::facing_methods().front())
     spent_ms += milliseconds([&] { fronts = lab::fronts_of(method, seen); });
-  }
-  const auto side_of = [&](const ScreenTriangle& t) -> std::int64_t {
+  const auto side_of = [&](const ScreenTriangle& t) {
     const std::size_t id = t.payload - 1;
     // Facing methods test whole triangles; a triangle that crosses the near plane is judged by its clipped
     // pieces.
@@ -210,20 +177,15 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
       return seen.mesh().positions[vertex].z > -seen.scene.camera.near_z;
     };
     if (fronts.empty() || before_near(3 * id) || before_near(3 * id + 1) || before_near(3 * id + 2))
-      return contract::signed_area(t);
+      return contract::signed_area(t) < 0 ? -1 : 1;
     return fronts[id] != 0 ? 1 : -1;
-  };
-  const Cull mode = view.frontend.cull;
-  const std::vector<bool> two_sided = two_sided_faces(*view.world.scene());
-  const auto is_culled = [&](const ScreenTriangle& t) {
-    if (two_sided[t.payload - 1]) return false;
-    const std::int64_t side = side_of(t);
-    return mode == Cull::both || (mode == Cull::front && side > 0) || (mode == Cull::back && side < 0);
   };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < triangles.snapped.size(); ++i) {
-    if (is_culled(triangles.snapped[i])) continue;
-    triangles.snapped[kept] = triangles.snapped[i];
+    const ScreenTriangle& t = triangles.snapped[i];
+    if (!seen.mesh().has_flag(t.payload - 1, kTwoSided) && !lab::keeps(view.frontend.cull, side_of(t)))
+      continue;
+    triangles.snapped[kept] = t;
     triangles.floats[kept++] = triangles.floats[i];
   }
   triangles.culled = triangles.snapped.size() - kept;
@@ -276,15 +238,12 @@ Pipeline::VisibleIds Pipeline::true_visible_ids(const View& view, const Triangle
     backend(by).draw(triangles.snapped, canvas_->frame.view(), {0}, view.execution);
     return visible_ids_in(canvas_->frame);
   }
-  const auto id_of = [&](std::uint32_t i) {
-    return i == lab::kNoTriangle ? lab::kNoTriangle : triangles.snapped[i].payload - 1;
+  const auto visible_in = [&](const auto& list) {
+    return lab::exact_visible_triangles(std::span(list), window_of(view), view.execution.threads).triangle;
   };
-  const int threads = view.execution.threads;
-  VisibleIds visible =
-      truth == Truth::snapped
-          ? lab::exact_visible_triangles(std::span(triangles.snapped), window_of(view), threads).triangle
-          : lab::exact_visible_triangles(std::span(triangles.floats), window_of(view), threads).triangle;
-  std::transform(visible.begin(), visible.end(), visible.begin(), id_of);
+  VisibleIds visible = truth == Truth::snapped ? visible_in(triangles.snapped) : visible_in(triangles.floats);
+  for (std::uint32_t& i : visible)
+    if (i != lab::kNoTriangle) i = triangles.snapped[i].payload - 1;
   return visible;
 }
 

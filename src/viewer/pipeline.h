@@ -75,7 +75,6 @@ class Pipeline {
   // Per pixel, row by row: the visible triangle's index in the scene, or lab::kNoTriangle.
   using VisibleIds = std::vector<std::uint32_t>;
 
-  void draw_ours(const lab::StageMethods& choice, const View& view, Picture& picture);
   void draw_composed(const lab::StageMethods& choice, const View& view, Picture& picture);
   Triangles triangles_of(const lab::StageMethods& choice, const View& view, double& spent_ms);
   Triangles from_front_end(const View& view, Cull cull);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -59,16 +58,14 @@ void update_mean(double now, double& mean) {
 
 Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
-  state_.execution = start_.execution;
-  state_.reproducible = start_.reproducible;
-  state_.execution.target = resolve(state_.execution.target);
+  start_.execution.target = resolve(start_.execution.target);
 }
 
 void Session::press(Key key) {
   const auto command = command_of(key);
   if (!command) return;
   demo_left_ |= *command < Command::panel;
-  if (is_held(*command))
+  if (*command <= Command::look_right)
     held_.insert(key);
   else
     act(*command);
@@ -82,7 +79,11 @@ void Session::type(std::span<const Stroke> strokes, const std::function<void(dou
   for (const Stroke& stroke : strokes) {
     const Key* const key = std::get_if<Key>(&stroke);
     if (key != nullptr) press(*key);
-    if (const Named* const named = std::get_if<Named>(&stroke)) choose(named->method);
+    if (const Named* const named = std::get_if<Named>(&stroke)) {
+      put(named->method, sides_[state_.active].choice);
+      reset_results();
+      ++state_.version;
+    }
     if (pass)
       pass(seconds_of(stroke));
     else
@@ -148,63 +149,37 @@ void Session::act(Command command) {
       state_.*flag = !(state_.*flag);
       return;
     }
-  switch (command) {
-    case Command::slower:
-      state_.speed = std::max(state_.speed / kSpeedStep, kSlowest);
-      break;
-    case Command::faster:
-      state_.speed = std::min(state_.speed * kSpeedStep, kFastest);
-      break;
-    case Command::home:
-      if (!world_ || state_.stream) break;
-      world_->camera() = world_->home();
-      state_.angle = 0.0f;
-      world_->turn(state_.axis, state_.angle);
-      break;
-    case Command::switch_back:
-      if (last_switch_) switch_by(*last_switch_, -1);
-      break;
-    case Command::errors:
-      state_.errors = next_of_three(state_.errors);
-      break;
-    case Command::truth:
-      state_.truth = next_of_three(state_.truth);
-      reset_results();
-      break;
-    case Command::next_error:
-      show_next_error();
-      break;
-    case Command::arrangement:
-      state_.arrangement = next_of_three(state_.arrangement);
-      if (state_.arrangement == Arrangement::one) state_.active = 0;
-      reset_results();
-      break;
-    case Command::other_side:
-      if (state_.arrangement == Arrangement::one)
-        state_.message = "there is one side only; [v] shows two";
-      else
-        state_.active = 1 - state_.active;
-      break;
-    case Command::previous_step:
-      take_step(state_.step - 2);
-      break;
-    case Command::next_step:
-      take_step(state_.step);
-      break;
-    case Command::help:
-      state_.help = !(state_.help && state_.panel);
-      state_.panel |= state_.help;
-      break;
-    case Command::save:
-      save_next_ = true;
-      break;
-    case Command::quit:
-      done_ = true;
-      break;
-    default:
-      switch_by(command, 1);
-      last_switch_ = command;
-  }
+  const std::pair<Command, std::function<void()>> kActions[] = {
+      {Command::slower, [&] { state_.speed = std::max(state_.speed / kSpeedStep, kSlowest); }},
+      {Command::faster, [&] { state_.speed = std::min(state_.speed * kSpeedStep, kFastest); }},
+      {Command::home, [&] { go_home(); }},
+      {Command::switch_back, [&] { switch_by(last_switch_, -1); }},
+      {Command::errors, [&] { state_.errors = next_of_three(state_.errors); }},
+      {Command::next_error, [&] { show_next_error(); }},
+      {Command::other_side, [&] { change_side(); }},
+      {Command::previous_step, [&] { take_step(state_.step - 2); }},
+      {Command::next_step, [&] { take_step(state_.step); }},
+      {Command::help, [&] { state_.panel |= state_.help = !(state_.help && state_.panel); }},
+      {Command::save, [&] { save_next_ = true; }},
+      {Command::quit, [&] { done_ = true; }}};
+  for (const auto& [wanted, action] : kActions)
+    if (command == wanted) return action();
+  switch_by(command, 1);
+  if (command <= Command::light) last_switch_ = command;
+}
+
+void Session::go_home() {
+  if (!world_ || state_.stream) return;
+  world_->camera() = world_->home();
+  state_.angle = 0.0f;
+  world_->turn(state_.axis, state_.angle);
+}
+
+void Session::change_side() {
+  if (state_.arrangement == Arrangement::one)
+    state_.message = "there is one side only; [v] shows two";
+  else
+    state_.active = 1 - state_.active;
 }
 
 void Session::switch_by(Command command, int step) {
@@ -218,16 +193,12 @@ void Session::switch_by(Command command, int step) {
       {Command::facing, [&] { step_method(lab::facing_methods(), choice.facing, step); }},
       {Command::cull_front, [&] { side.cull_front = !side.cull_front; }},
       {Command::cull_back, [&] { side.cull_back = !side.cull_back; }},
-      {Command::light, [&] { state_.lit = !state_.lit; }}};
+      {Command::light, [&] { state_.lit = !state_.lit; }},
+      {Command::truth, [&] { state_.truth = next_of_three(state_.truth); }},
+      {Command::arrangement, [&] { state_.arrangement = next_of_three(state_.arrangement); }}};
   for (const auto& [wanted, action] : switches)
     if (command == wanted) action(), reset_results();
-}
-
-void Session::choose(std::string_view method) {
-  Side& side = sides_[state_.active];
-  if (!put(method, side.choice)) throw std::invalid_argument("unknown method '" + std::string(method) + "'");
-  reset_results();
-  ++state_.version;
+  if (state_.arrangement == Arrangement::one) state_.active = 0;
 }
 
 // Forgets what was measured and counted with other methods or at another size.
@@ -290,7 +261,7 @@ void Session::load(tools::Size size) {
 
 View Session::view_of(std::size_t i, tools::Size size) const {
   const Side& side = sides_[i];
-  View view{*world_, frontend_, state_.execution};
+  View view{*world_, frontend_, start_.execution};
   view.frontend.width = size.width;
   view.frontend.height = size.height;
   view.frontend.cull = side.cull_front ? (side.cull_back ? Cull::both : Cull::front)
@@ -378,7 +349,7 @@ void Session::judge_if_due(std::size_t i, const lab::StageMethods& choice, const
   Side& side = sides_[i];
   const bool fresh = side.judgement && side.judged == state_.version;
   if (state_.errors == Errors::off || !choice.fills() || fresh) return;
-  const bool affordable = state_.reproducible || work_ms + side.judging_ms < kBudget_ms;
+  const bool affordable = start_.reproducible || work_ms + side.judging_ms < kBudget_ms;
   if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
     side.judging_ms *= kDecay;
     return;
@@ -397,17 +368,13 @@ void Session::show_next_error() {
     state_.message = fmt::format("{} at {}, {}", what, at.x, at.y);
   };
   if (state_.arrangement == Arrangement::difference) {
-    if (state_.differing > 0)
-      show(first_difference_, "first difference");
-    else
-      state_.message = "no difference";
+    state_.message = "no difference";
+    if (state_.differing > 0) show(first_difference_, "first difference");
     return;
   }
   const auto& judgement = sides_[state_.active].judgement;
-  if (!judgement || state_.errors == Errors::off) {
-    state_.message = "errors are not counted; [e] counts them";
-    return;
-  }
+  state_.message = "errors are not counted; [e] counts them";
+  if (!judgement || state_.errors == Errors::off) return;
   const std::vector<lab::Mark>& marks = judgement->marks;
   const std::size_t width = static_cast<std::size_t>(side_size_.width);
   const Pixel from = focus_.value_or(Pixel{-1, 0});

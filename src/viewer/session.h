@@ -63,7 +63,6 @@ struct State {
   std::string scene;
   bool stream = false;
   bool lit = true;  // scenes only
-  Execution execution;
   bool along_view = true;
   float speed = 1.0f;  // factor
   bool spinning = false;
@@ -80,7 +79,6 @@ struct State {
   std::uint64_t version = 1;    // of the picture; changes with everything that the picture depends on
   std::string message;
   std::size_t step = 0;  // of a demo: how many steps were taken
-  bool reproducible = false;
 };
 
 class Session {
@@ -89,8 +87,6 @@ class Session {
 
   void press(Key key);
   void release(Key key);
-  // Selects a method for its stage on the active side. Throws std::invalid_argument for an unknown name.
-  void choose(std::string_view method);
   // Types strokes into a session that has been drawn, and draws after each, because some keys depend on the
   // last frame. `pass` calls advance() for a stroke's time; null: once for all of it.
   void type(std::span<const Stroke> strokes, const std::function<void(double)>& pass = nullptr);
@@ -118,11 +114,14 @@ class Session {
   // What the magnifier shows, in one side's picture.
   Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }
   std::span<const Step> steps() const { return start_.steps; }
+  bool reproducible() const { return start_.reproducible; }
   const World& world() const { return *world_; }
   const std::vector<std::string>& saved() const { return saved_; }  // files' names
 
  private:
   void act(Command command);
+  void go_home();
+  void change_side();
   void switch_by(Command command, int step);
   void move(Command command, float seconds);
   void load(tools::Size size);
@@ -146,7 +145,7 @@ class Session {
   int panel_width_px_ = 0;
   bool demo_left_ = false;  // the user changed the state since the demo's last step
   std::set<Key> held_;
-  std::optional<Command> last_switch_;
+  Command last_switch_ = Command::quit;  // quit: none
   std::optional<Pixel> pointer_, focus_;
   Pixel first_difference_{0, 0};
   bool done_ = false, save_next_ = false;

@@ -115,10 +115,8 @@ class Loop {
       last = now;
       const Screen& screen = session_.draw(terminal_.size_px());
       if (!put(picture_.show(screen, status_of(session_)))) return;
-      const bool busy = !session_.still();
-      const auto until = now + (busy ? kFrame : kIdle);
       // Any event ends the pause, because it may change the picture.
-      if (!read_until(until)) return;
+      if (!read_until(now + (session_.still() ? kIdle : kFrame))) return;
       release_old();
     }
   }

@@ -14,36 +14,6 @@ Key plain_key(char c) {
   return c == '\n' ? Key::enter : key_of(c);
 }
 
-}  // namespace
-
-// Control sequences as in xterm's documentation (ctlseqs): CSI and SS3 cursor keys.
-std::vector<Key> take_keys(std::string& bytes, bool paused) {
-  constexpr Key kCursor[] = {Key::up, Key::down, Key::right, Key::left};
-  std::vector<Key> keys;
-  std::string_view rest = bytes;
-  while (!rest.empty()) {
-    const bool escaped = rest[0] == '\x1b';
-    if (escaped && rest.size() == 1 && !paused) break;
-    // A plain key, Escape, or Alt and a key.
-    if (!escaped || rest.size() == 1 || (rest[1] != '[' && rest[1] != 'O')) {
-      keys.push_back(plain_key(rest[0]));
-      rest.remove_prefix(1);
-      continue;
-    }
-    const std::size_t end = rest.find_first_not_of(";0123456789", 2);
-    if (end == std::string_view::npos) {
-      if (paused) rest = {};
-      break;
-    }
-    if (rest[end] >= 'A' && rest[end] <= 'D') keys.push_back(kCursor[rest[end] - 'A']);
-    rest.remove_prefix(end + 1);
-  }
-  bytes = std::string(rest);
-  return keys;
-}
-
-namespace {
-
 constexpr std::uint32_t kBlack = rgb(0, 0, 0), kStatus = rgb(225, 225, 225);
 
 void append_colour(std::string& out, int ground, std::uint32_t colour) {
@@ -83,6 +53,32 @@ std::string row_of(const Screen& screen, int y) {
 }
 
 }  // namespace
+
+// Control sequences as in xterm's documentation (ctlseqs): CSI and SS3 cursor keys.
+std::vector<Key> take_keys(std::string& bytes, bool paused) {
+  constexpr Key kCursor[] = {Key::up, Key::down, Key::right, Key::left};
+  std::vector<Key> keys;
+  std::string_view rest = bytes;
+  while (!rest.empty()) {
+    const bool escaped = rest[0] == '\x1b';
+    if (escaped && rest.size() == 1 && !paused) break;
+    // A plain key, Escape, or Alt and a key.
+    if (!escaped || rest.size() == 1 || (rest[1] != '[' && rest[1] != 'O')) {
+      keys.push_back(plain_key(rest[0]));
+      rest.remove_prefix(1);
+      continue;
+    }
+    const std::size_t end = rest.find_first_not_of(";0123456789", 2);
+    if (end == std::string_view::npos) {
+      if (paused) rest = {};
+      break;
+    }
+    if (rest[end] >= 'A' && rest[end] <= 'D') keys.push_back(kCursor[rest[end] - 'A']);
+    rest.remove_prefix(end + 1);
+  }
+  bytes = std::string(rest);
+  return keys;
+}
 
 std::string TerminalPicture::show(const Screen& screen, std::string_view status) {
   const int columns = screen.picture.width;

@@ -19,8 +19,7 @@ class ConformanceCulling : public Conformance {
   void expect_culled(const TriangleStream& stream, View view, const std::string& what) {
     for (const Cull cull : cull_modes()) {
       view.cull = cull;
-      std::vector<std::uint32_t> visible(
-          static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), kNoTriangle);
+      std::vector visible(view.pixels(), kNoTriangle);
       for (std::uint32_t id = 0; id < stream.triangles.size(); ++id) {
         const auto positions = snapped(stream.triangles[id].vertex, view.subpixel_bits);
         if (!is_kept(cull, area(positions))) continue;

@@ -33,11 +33,9 @@ TEST_F(ConformanceDepth, WallsOnThePlanesHaveTheEndsOfTheDepthRangeAndThoseBeyon
 TEST_F(ConformanceDepth, CameraWallsHaveTheExpectedDepth) {
   const auto wall_at = [](float distance) {
     Scene scene;
-    Mesh mesh;
-    mesh.positions = {{-9, -9, -distance}, {-9, 9, -distance}, {9, -9, -distance}, {9, 9, -distance}};
-    mesh.triangles = {{0, 1, 2}, {3, 2, 1}};
-    mesh.colours = {0, 0};
-    scene.meshes.push_back(mesh);
+    scene.meshes.push_back({{{-9, -9, -distance}, {-9, 9, -distance}, {9, -9, -distance}, {9, 9, -distance}},
+                            {{0, 1, 2}, {3, 2, 1}},
+                            {0, 0}});
     scene.instances.push_back({});
     scene.camera.near_z = 1;
     scene.camera.far_z = 2;

@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,13 +33,8 @@ namespace edgewise::conformance {
 // The moved sample lies on no edge. A ray from it to the right crosses an edge if the edge spans the sample's
 // height, upper end included and lower end excluded, strictly to the right of the sample.
 
-template <typename T>
-struct Position {
-  T x, y;
-};
-
 // 2^-15 px, as snapped positions are; up to 2^37.
-using SubPosition = Position<std::int64_t>;
+using SubPosition = glm::vec<2, std::int64_t>;
 using Product = contract::int128;
 inline constexpr std::int64_t kPixel = 1 << kMaxSubpixelBits;
 inline constexpr int kBits[] = {kMinSubpixelBits, 8, 12, kMaxSubpixelBits};  // that the suite draws
@@ -78,25 +72,14 @@ inline Product area(std::span<const SubPosition> polygon) {
   return sum;
 }
 
-// The samples exactly on the segment between two points, which only the tie rule decides.
-inline int ties(const SubPosition& p, const SubPosition& q, int width, int height) {
-  int count = 0;
-  for (std::int64_t y = 0; y < height; ++y)
-    for (std::int64_t x = 0; x < width; ++x) {
-      const Product dx = x * kPixel + kPixel / 2 - p.x, dy = y * kPixel + kPixel / 2 - p.y, ex = q.x - p.x,
-                    ey = q.y - p.y;
-      const Product along = dx * ex + dy * ey;
-      count += dx * ey == dy * ex && along > 0 && along < ex * ex + ey * ey;
-    }
-  return count;
-}
-
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;  // payload where nothing was drawn
 
 struct View {
   int width = 64, height = 64;  // px
   Cull cull = Cull::none;
   int subpixel_bits = 8;
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 class Pipeline {
@@ -130,12 +113,10 @@ class Pipeline {
 
   // The number of triangles that draw each pixel, row by row. Draws each triangle alone.
   std::vector<int> hits(const Drawable& drawable, const View& view) {
-    std::vector<int> all(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), 0);
+    std::vector<int> all(view.pixels(), 0);
     for (const ScreenTriangle& triangle : triangles(drawable, view)) {
-      const Framebuffer& frame = draw(std::span(&triangle, 1), view);
-      auto hit = all.begin();
-      for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x, ++hit) *hit += frame.payload_row(y)[x] != kNoTriangle;
+      const auto payloads = lab::payloads_of(draw(std::span(&triangle, 1), view));
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] += payloads[i] != kNoTriangle;
     }
     return all;
   }
@@ -201,8 +182,7 @@ class Conformance : public ::testing::Test {
   }
 
   void expect_nothing(const Drawable& drawable, const View& view, const std::string& what) {
-    const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-    expect_visible_triangles(drawable, view, std::vector<std::uint32_t>(pixels, kNoTriangle), what);
+    expect_visible_triangles(drawable, view, std::vector(view.pixels(), kNoTriangle), what);
   }
 
  private:

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "edgewise/image.h"
@@ -137,23 +136,6 @@ TEST(PngSamples, OfInterlacedFilesAreInTheirPlaces) {
   for (std::uint32_t y = 0; y < kHeight; ++y)
     for (std::uint32_t x = 0; x < kWidth; ++x)
       EXPECT_EQ(image.pixels.at(y * kWidth + x).at(0), 257 * (16 * y + x)) << x << ", " << y;
-}
-
-TEST(PngSamples, Of8BitsEqualTheSameValuesOf16) {
-  std::string eight = "\0"s, sixteen = "\0"s;
-  for (int v = 0; v < 256; ++v) {
-    eight += static_cast<char>(v);
-    sixteen += std::string(2, static_cast<char>(v));
-  }
-  const Samples a = samples_of({256, 1, 8, kGrey, eight, ""});
-  EXPECT_EQ(difference(a, samples_of({256, 1, 16, kGrey, sixteen, ""}), nullptr).count, 0u);
-  sixteen[1 + 2 * 7 + 1] ^= 1, eight[1 + 7] ^= 1;  // the lowest bit of one sample
-  for (const Samples& b :
-       {samples_of({256, 1, 8, kGrey, eight, ""}), samples_of({256, 1, 16, kGrey, sixteen, ""})}) {
-    const Difference d = difference(a, b, nullptr);
-    EXPECT_EQ(d.largest, 1.0);
-    EXPECT_EQ(std::tie(d.count, d.first_x), std::tuple(1u, 7));
-  }
 }
 
 TEST(Png, AlphaIsComparedApart) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/nearest_name.h"
+#include "lab/cases/to_stream.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/cracks.h"
 #include "support.h"
@@ -67,20 +68,7 @@ inline std::vector<lab::FloatTriangle> hard_floats(std::string_view family, int 
   return triangles;
 }
 
-// Converts screen triangles to floats, which represent their coordinates exactly.
-inline std::vector<lab::FloatTriangle> as_floats(std::span<const ScreenTriangle> triangles) {
-  std::vector<lab::FloatTriangle> floats(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      floats[i].at.x_px[k] = static_cast<float>(triangles[i].x_q15[k]) / contract::kPixel_q15;
-      floats[i].at.y_px[k] = static_cast<float>(triangles[i].y_q15[k]) / contract::kPixel_q15;
-      floats[i].at.z01[k] = static_cast<float>(triangles[i].z[k] - contract::kDepthHead) /
-                            static_cast<float>(contract::kDepthRange);
-    }
-    floats[i].payload = triangles[i].payload;
-  }
-  return floats;
-}
+using lab::as_floats;
 
 // Triangles in both forms, and both truths.
 struct Picture {

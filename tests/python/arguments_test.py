@@ -166,13 +166,3 @@ def test_a_wrong_type_is_refused_by_the_arguments_name(function, parameter):
         text = str(raised.value)
         assert re.search(rf"\b{parameter.name}\b", text) and "\n" not in text and len(text) < 200, (bad, text)
         assert not isinstance(bad, np.ma.MaskedArray) or "mask" in text
-
-
-def test_numbers_that_stay_the_same_are_taken():
-    expected = edgewise.Scene(np.round(POSITIONS * 4), INDICES).draw(CAMERA, SIZE)
-    for kind in (np.float16, ">f8", np.int8, np.int64):
-        other = edgewise.Scene(np.round(POSITIONS * 4).astype(kind), INDICES.astype(">u2")).draw(CAMERA, SIZE)
-        assert np.array_equal(other.payload, expected.payload)
-    ids = FRAME.payload.astype(np.int64)
-    assert np.array_equal(edgewise.id_colours(ids), edgewise.id_colours(FRAME.payload))
-    assert np.array_equal(edgewise.depth01(FRAME.depth.astype(np.uint64)), edgewise.depth01(FRAME.depth))

@@ -149,16 +149,22 @@ def test_planes_may_be_parts_of_larger_arrays():
 
 def test_inputs_need_not_be_contiguous_or_of_the_type():
     positions, indices, colours = triangles()
+    positions = np.round(4 * positions)
     wide = np.zeros((len(positions), 5))
     wide[:, 4:1:-1] = positions
     expected = edgewise.Scene(positions, indices, colours=colours).draw(CAMERA, SIZE)
     r, g, b = (colours >> shift & 255 for shift in (0, 8, 16))
     for other in (edgewise.Scene(wide[:, 4:1:-1], np.asfortranarray(indices.astype(np.int64)), colours=colours.tolist()),
-                  edgewise.Scene(positions.tolist(), indices.tolist(), colours=np.stack([r, g, b], -1).astype(np.uint8))):
+                  edgewise.Scene(positions.tolist(), indices.tolist(), colours=np.stack([r, g, b], -1).astype(np.uint8)),
+                  *(edgewise.Scene(positions.astype(kind), indices.astype(">u2"), colours=colours)
+                    for kind in (np.float16, ">f8", np.int8, np.int64))):
         assert same(other.draw(CAMERA, SIZE), expected)
     view = np.asfortranarray(CAMERA.view)
     assert same(edgewise.Scene(positions, indices, colours=colours).draw(edgewise.Camera(view, CAMERA.projection.tolist()), SIZE),
                 expected)
+    ids, depth = scene().draw(CAMERA, SIZE, ids=True)
+    assert np.array_equal(edgewise.id_colours(ids.astype(np.int64)), edgewise.id_colours(ids))
+    assert np.array_equal(edgewise.depth01(depth.astype(np.uint64)), edgewise.depth01(depth))
 
 
 def test_a_scene_copies_its_input():

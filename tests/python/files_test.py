@@ -49,25 +49,20 @@ def test_pictures_come_back(tmp_path, extension):
         assert np.array_equal(edgewise.read_image(path), colours)
 
 
-def test_a_tri_file_is_drawn_as_by_the_program(tri, tmp_path):
-    drawn = edgewise.Stream.read_tri(tri)
-    assert drawn.size == SIZE and same(drawn.draw(), stream().draw())
-    assert program("hash", tri).split()[0] == f"{edgewise.pixel_hash(drawn.draw()):016x}"
-    program("render", tri, "--payload", "id", "-o", tmp_path / "ids.png")
-    assert np.array_equal(edgewise.read_image(tmp_path / "ids.png"), edgewise.id_colours(drawn.draw(ids=True).payload))
-
-
-def test_an_exact_stream_comes_back_and_is_drawn_as_by_the_program(tmp_path):
-    path, vertices = tmp_path / "exact.tri", stream().vertices.astype(np.float64) + 2.0**-30
-    exact = edgewise.Stream(vertices, SIZE, exact=True)
-    exact.write_tri(path)
-    assert path.read_bytes()[:4] == b"TRI2" and path.stat().st_size == 16 + 76 * len(vertices)
+@pytest.mark.parametrize("exact, magic, size", [(False, b"TRI1", 40), (True, b"TRI2", 76)])
+def test_a_stream_comes_back_and_is_drawn_as_by_the_program(tmp_path, exact, magic, size):
+    path, vertices = tmp_path / "a.tri", stream().vertices.astype(np.float64) + exact * 2.0**-30
+    drawn = edgewise.Stream(vertices, SIZE, colours=stream().colours, exact=exact)
+    drawn.write_tri(path)
+    assert path.read_bytes()[:4] == magic and path.stat().st_size == 16 + size * len(vertices)
     again = edgewise.Stream.read_tri(path)
-    assert np.array_equal(again.vertices, vertices) and np.array_equal(again.colours, exact.colours)
+    assert again.size == SIZE and np.array_equal(again.vertices, vertices) and np.array_equal(again.colours, drawn.colours)
     for bits in (8, 15):
-        frame = exact.draw(subpixel_bits=bits)
+        frame = drawn.draw(subpixel_bits=bits)
         assert same(frame, again.draw(subpixel_bits=bits))
         assert program("hash", path, "--subpixel-bits", bits).split()[0] == f"{edgewise.pixel_hash(frame):016x}"
+    program("render", path, "--payload", "id", "-o", tmp_path / "ids.png")
+    assert np.array_equal(edgewise.read_image(tmp_path / "ids.png"), edgewise.id_colours(drawn.draw(ids=True).payload))
 
 
 def test_an_obj_file_is_drawn_as_by_the_program(obj, tmp_path):
@@ -138,6 +133,15 @@ def test_16_bit_grey_comes_back(tmp_path):
     assert back.dtype == np.uint16 and np.array_equal(back, grey)
     difference = edgewise.diff(path, grey + np.uint16(1))
     assert (difference.differing, difference.largest, difference.scale) == (65536, 65535, 65535)  # 65535 + 1 is 0
+
+
+def test_8_bits_equal_the_same_values_of_16():
+    deep = np.arange(256, dtype=np.uint16)[None] * np.uint16(257)
+    colours = np.repeat(np.arange(256, dtype=np.uint8)[None, :, None], 3, axis=-1)
+    assert edgewise.diff(deep, colours).differing == 0
+    deep[0, 7] ^= 1
+    difference = edgewise.diff(deep, colours)
+    assert (difference.differing, difference.largest, difference.first) == (1, 1, (7, 0))
 
 
 @pytest.mark.parametrize("dtype", "?bBhilqLQefdFOSUm")

@@ -20,8 +20,7 @@ FOLDER = os.path.dirname(__file__)
 # Loops of threads that the interpreter's end interrupts.
 LOOPS = {
     "draw on 1 thread": "mine.draw(camera, size, ids=True)",
-    "draw on 2 threads": "mine.draw(camera, size, ids=True, threads=2)",
-    "draw on 3 threads": "mine.draw(camera, size, ids=True, threads=3)",
+    "draw on several threads": "mine.draw(camera, size, ids=True, threads=2 + i)",
     "draw of one scene": "shared.draw(camera, size, ids=True)",
     "progress": "mine.draw([camera] * 2, size, progress=lambda views: time.sleep(1e-4))",
     "queries": "mine.barycentrics(frame, camera), edgewise.pixel_hash(frame), edgewise.visible_triangles(frame)",

@@ -60,6 +60,7 @@ struct Both {
                             .flags = {kTwoSided, kTwoSided, kTwoSided}});
     scene.instances = {Instance{}, Instance{.matrix = kMatrix}};
     scene.to_light = {-0.5f, 0.25f, 1};
+    set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
   }
   ~Both() { edgewise_free_scene(c); }
   Both(const Both&) = delete;
@@ -115,7 +116,6 @@ TEST(CInterface, ProjectsAsCameraHSays) {
 
 TEST(CInterface, DrawsTheSamePictures) {
   Both both;
-  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
   const Renderer renderers[] = {Renderer("scanline"), Renderer("tiles+spans")};
   for (int trial = 0; trial < 128; ++trial) {
     edgewise_options options = edgewise_default_options();
@@ -191,7 +191,6 @@ TEST(CInterface, KeepsPositionsInDouble) {
 
 TEST(CInterface, CountsWhatItDraws) {
   Both both;
-  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
   std::vector<glm::vec3>& positions = both.scene.meshes[0].positions;
   positions[3].y = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(edgewise_set_positions(both.c, 0, &positions[0].x, 4, 0), EDGEWISE_OK);
@@ -213,7 +212,6 @@ TEST(CInterface, CountsWhatItDraws) {
 
 TEST(CInterface, TellsWhatIsSeen) {
   Both both;
-  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
   const Renderer renderer("tiled");
   edgewise_options options = edgewise_default_options();
   options.ids = 1;
@@ -281,7 +279,6 @@ TEST(CInterface, TellsWhatIsSeen) {
 
 TEST(CInterface, ChangesAScene) {
   Both both;
-  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
   const Planes before = expect_drawn(both.c, both.scene);
   std::vector<glm::vec3>& positions = both.scene.meshes[0].positions;
   std::vector<glm::vec4> moved;  // 16 bytes apart
@@ -296,7 +293,6 @@ TEST(CInterface, ChangesAScene) {
 // One of each kind. What frontend/checked_edits.h refuses, Python's arguments_test.py tests.
 TEST(CInterface, TellsErrorsAndChangesNothing) {
   Both both;
-  both.set_camera(kView, perspective_projection(1.1, 1.4, 0.3, 8));
   const Renderer renderer("tiled");
   const Planes before;
   Planes frame;

@@ -45,7 +45,6 @@ struct Shown {
     return planes;
   }
   bool has(int x, int y) const { return ids.depth_row(y)[x] != contract::kDepthClear; }
-  std::uint32_t id(int x, int y) const { return ids.payload_row(y)[x]; }
   // Calls visit(x, y, index of the pixel) until a test fails.
   template <typename Visit>
   void for_each_pixel(Visit&& visit) const {
@@ -87,7 +86,7 @@ class Truth {
     double w_error;
   };
   std::optional<Values> at(int x, int y) {
-    const std::uint32_t id = shown_.id(x, y);
+    const std::uint32_t id = shown_.ids.payload_row(y)[x];
     if (id_ != id) id_ = id, make_pieces(id);
     for (const Piece& piece : pieces_) {
       const ScreenTriangle t{{piece[0].snapped.x_q15, piece[1].snapped.x_q15, piece[2].snapped.x_q15},
@@ -131,7 +130,7 @@ class Truth {
       rounded[k].weights[static_cast<std::size_t>(k)] = exact[k].weights[static_cast<std::size_t>(k)] = 1;
       rounded[k].true_w = rounded[k].at.w, rounded[k].w_error = 0.0;
       if (const auto* scene = std::get_if<Scene>(&shown_.drawable)) {
-        exact[k].at = exact_corner(*scene, id, k);
+        exact[k].at = to_screen(*scene, id)(position(*scene, id, k));
         rounded[k].true_w = exact[k].at.w;
         rounded[k].w_error = w_error(to_screen(*scene, id), position(*scene, id, k), exact[k].at.w);
       }
@@ -168,9 +167,6 @@ class Truth {
                      glm::dvec3(to_screen.exact[0].z, to_screen.exact[1].z, to_screen.exact[2].z));
     if (glm::length(glm::dvec3(to_screen.origin)) > 0x1p24 * distance) return double{kInfinity};
     return contract::kWError * length * distance / w;
-  }
-  ClipVertex exact_corner(const Scene& scene, std::uint32_t id, int k) {
-    return to_screen(scene, id)(position(scene, id, k));
   }
   std::size_t instance_of(std::uint32_t id) const {
     std::size_t i = 0;

@@ -36,6 +36,19 @@ TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, i
   return stream;
 }
 
+std::vector<FloatTriangle> as_floats(std::span<const ScreenTriangle> triangles) {
+  std::vector<FloatTriangle> list;
+  for (const ScreenTriangle& t : triangles) {
+    FloatTriangle& out = list.emplace_back(FloatTriangle{{}, t.payload});
+    for (int i = 0; i < 3; ++i) {
+      out.at.x_px[i] = static_cast<float>(t.x_q15[i]) / contract::kPixel_q15;
+      out.at.y_px[i] = static_cast<float>(t.y_q15[i]) / contract::kPixel_q15;
+      out.at.z01[i] = static_cast<float>(contract::depth01(t.z[i]));
+    }
+  }
+  return list;
+}
+
 std::optional<Drawable> in_floats(const Drawable& drawable) {
   const auto* stream = std::get_if<TriangleStream>(&drawable);
   if (stream == nullptr || stream->exact.empty()) return {};

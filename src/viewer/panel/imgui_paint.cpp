@@ -65,10 +65,8 @@ void paint_triangle(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& 
                                   contract::make_edge(o, 0)};
   for (int y = box.y0; y < box.y1; ++y) {
     std::uint32_t* const row = image.pixels.data() + std::ptrdiff_t{y} * image.width;
-    std::int64_t next[] = {edges[0].at(box.x0, y), edges[1].at(box.x0, y), edges[2].at(box.x0, y)};
     for (int x = box.x0; x < box.x1; ++x) {
-      const std::int64_t w[] = {next[0], next[1], next[2]};
-      for (int i = 0; i < 3; ++i) next[i] += std::int64_t{contract::kPixel_q15} * edges[i].a;
+      const std::int64_t w[] = {edges[0].at(x, y), edges[1].at(x, y), edges[2].at(x, y)};
       if ((w[0] | w[1] | w[2]) < 0) continue;
       if (!plain) {
         double u = 0, v = 0;

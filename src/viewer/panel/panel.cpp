@@ -307,7 +307,7 @@ class Panel::Contents {
   }
 
   void times() {
-    if (state().reproducible || !section("Times")) return;
+    if (session_->reproducible() || !section("Times")) return;
     text(kPlain, "{:.1f} ms per frame", state().frame_ms);
     for (std::size_t i = 0; i < session_->side_count(); ++i) {
       const Side &side = session_->side(i), &first = session_->side(0);
