@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/grid.h"
@@ -74,6 +75,18 @@ void for_each_grid(Check&& check) {
 
 inline std::int32_t between(Random& random, std::int32_t low, std::int32_t high) {
   return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+}
+
+inline float spread(Random& random, float reach) {
+  return random.uniform(-reach, reach);
+}
+
+// A mesh where it was modelled.
+inline Scene scene_of(Mesh mesh) {
+  Scene scene;
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.emplace_back();
+  return scene;
 }
 
 // What a front end emits, copied.

@@ -93,8 +93,6 @@ std::array<double, 3> Clipper::weights(int id) const {
 
 namespace {
 
-constexpr std::size_t kMax = Clipper::kMaxVertices;
-
 // The split uses only signed areas, which are exact. However a polygon is split, the signed coverages of the
 // triangles add up to its winding number at every sample. So if no triangle is negative and the polygon winds
 // once, each of its samples lies in exactly one triangle.
@@ -178,7 +176,7 @@ class Splitter {
 
   std::span<const Vertex> polygon_;
   Pieces pieces_;
-  std::uint8_t apex_[kMax][kMax] = {};
+  std::uint8_t apex_[Clipper::kMaxVertices][Clipper::kMaxVertices] = {};
 };
 
 }  // namespace

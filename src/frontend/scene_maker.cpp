@@ -138,10 +138,7 @@ void SceneMaker::make_visible(Worker& w, std::size_t begin, std::size_t end, Chu
   // Until here the payload is the id. Colours replace it.
   const std::span made(out.triangles + first, out.count - first);
   if (options_->shade) return shade_(*w.light, made);
-  for (ScreenTriangle& t : made) {
-    const std::uint32_t index = t.payload - task.first_id;
-    t.payload = mesh.colours[index];
-  }
+  for (ScreenTriangle& t : made) t.payload = mesh.colours[t.payload - task.first_id];
 }
 
 void SceneMaker::finish() {

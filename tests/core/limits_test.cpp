@@ -24,12 +24,11 @@ namespace {
 
 // 2^30 + 2^20 triangles of one small mesh.
 Scene too_many() {
-  Scene scene;
   Mesh mesh;
   mesh.positions = {{0, 0, -1}, {0, 1, -1}, {1, 0, -1}};
   mesh.triangles.assign(1 << 20, glm::uvec3(0, 1, 2));
   mesh.colours.assign(1 << 20, 0);
-  scene.meshes.push_back(std::move(mesh));
+  Scene scene = testing::scene_of(std::move(mesh));
   scene.instances.assign(1025, {});
   return scene;
 }

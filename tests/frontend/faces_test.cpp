@@ -20,8 +20,7 @@ using testing::run;
 // Quads and triangles, some two-sided, all around the camera, so that many are clipped.
 Scene scene_of_quads(bool two_sided) {
   Random random(5);
-  Scene scene;
-  Mesh& mesh = scene.meshes.emplace_back();
+  Mesh mesh;
   for (std::uint32_t i = 0; i < 3000; ++i) {
     const float reach = i % 3 == 0 ? 5.0f : 0.3f;
     const glm::vec3 at(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-9, 1));
@@ -39,7 +38,7 @@ Scene scene_of_quads(bool two_sided) {
     mesh.colours.push_back(rgb(10, i % 256, 20));
     mesh.flags.push_back(both ? kTwoSided : 0);
   }
-  scene.instances.push_back({});
+  Scene scene = testing::scene_of(std::move(mesh));
   scene.instances.push_back({.scale = {-1, 1, 1}, .angle = 1.0f, .translation = {0, 0, -6}});
   return scene;
 }
@@ -108,11 +107,10 @@ TEST(Faces, NormalIsThatOfTheWholePolygon) {
 }
 
 TEST(Faces, WithoutANormalGetAmbientLight) {
-  Scene scene;
-  Mesh& mesh = scene.meshes.emplace_back();
+  Mesh mesh;
   mesh.positions = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}, {1, 1, -3}};
   mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
-  scene.instances.push_back({});
+  Scene scene = testing::scene_of(std::move(mesh));
   scene.meshes.emplace_back(), scene.instances.push_back({.mesh = 1});  // without triangles
   scene.to_light = {0, 0, 1};
   EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, rgb(30, 30, 30)));
@@ -153,11 +151,10 @@ TEST(Faces, WithTwoSidesAreNeverCulled) {
 
 // A square in front of the camera, lit from the camera's side or from behind.
 Scene scene_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
-  Scene scene;
-  Mesh& mesh = scene.meshes.emplace_back();
+  Mesh mesh;
   mesh.positions = {{-1, 1, -3}, {1, 1, -3}, {1, -1, -3}, {-1, -1, -3}};
   mesh.add_quad(turned ? glm::uvec4{0, 3, 2, 1} : glm::uvec4{0, 1, 2, 3}, rgb(200, 200, 200), two_sided);
-  scene.instances.push_back({});
+  Scene scene = testing::scene_of(std::move(mesh));
   scene.to_light = to_light;
   return scene;
 }

@@ -105,12 +105,11 @@ TEST(FrontendKernels, TrianglesAreTheSameOnEveryTargetAndThreadCount) {
 }
 
 TEST(FrontendKernels, MeshesSeenByMatricesAreTheSameOnEveryTargetAndThreadCount) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const CameraMatrices camera = matrices_of(random_scene(false).camera, 1.5);
   glm::dmat4 oblique = camera.projection;
   oblique[0].z = 0.3, oblique[3].z = -0.5;
   for (const CameraMatrices& matrices :
-       {CameraMatrices{camera.view, perspective_projection(1, 1.5, 1e-2, kInfinity)},
+       {CameraMatrices{camera.view, perspective_projection(1, 1.5, 1e-2, double{kInf})},
         CameraMatrices{camera.view, orthographic_projection(-40, 30, -20, 30, -100, 100)},
         CameraMatrices{camera.view, oblique},
         CameraMatrices{glm::dmat4(1.0), camera.projection * camera.view}})
@@ -294,13 +293,10 @@ TEST(FrontendKernels, ManyMeshesGiveTheSameAsEachAlone) {
   const FrontendOptions options{.width = 300, .height = 200};
   std::vector<ScreenTriangle> expected;
   FrontendStats sum;
-  Scene alone;
-  alone.camera = scene.camera, alone.to_light = scene.to_light;
-  alone.instances.resize(1);
   for (const Instance& instance : scene.instances) {
-    alone.meshes.assign(1, scene.meshes[instance.mesh]);
-    alone.instances[0] = instance;
-    alone.instances[0].mesh = 0;
+    Scene alone = testing::scene_of(scene.meshes[instance.mesh]);
+    alone.camera = scene.camera, alone.to_light = scene.to_light;
+    alone.instances[0] = instance, alone.instances[0].mesh = 0;
     const auto [triangles, stats] = run(alone, options, {.threads = 2});
     expected.insert(expected.end(), triangles.begin(), triangles.end());
     sum += stats;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "edgewise/builtin.h"
-#include "edgewise/draw.h"
+#include "edgewise/frontend.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
 #include "lab/cases/backend_comparison.h"
@@ -27,23 +27,20 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 // A mesh of unconnected triangles. The camera is at the origin, looks along -z and has a field of view of 90
 // degrees.
 Scene loose(const std::vector<glm::vec3>& positions) {
-  Scene scene;
   Mesh mesh;
   mesh.positions = positions;
   for (unsigned i = 0; i + 2 < positions.size(); i += 3) {
     mesh.triangles.emplace_back(i, i + 1, i + 2);
     mesh.colours.push_back(rgb(200, 100, 50));
   }
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back({});
+  Scene scene = testing::scene_of(std::move(mesh));
   scene.camera.fov_y = 1.57079633f;
   scene.to_light = {0.0f, 0.0f, 1.0f};
   return scene;
 }
 
-// kFront is clockwise as seen from the camera.
+// Clockwise as seen from the camera.
 const std::vector<glm::vec3> kFront = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}};
-const std::vector<glm::vec3> kBack = {{-1, -1, -3}, {1, -1, -3}, {-1, 1, -3}};
 
 testing::Emitted run(const Drawable& drawable,
                      const FrontendOptions& options = {.width = 100, .height = 100, .cull = Cull::none},
@@ -65,44 +62,6 @@ TEST(Snap, RoundsHalfToEvenAndClampsToTheGuardBand) {
       expect_snapped(double{random.uniform(-16400.0f, 16400.0f)});
       expect_snapped(std::ldexp(static_cast<double>(random.next() >> 11), -38) - 16384.0);
     }
-  }
-}
-
-TEST(Frontend, DropsNanAndInfiniteVerticesAndCountsThem) {
-  for (const float bad : {kNan, kInf, -kInf})
-    for (int vertex = 0; vertex < 3; ++vertex)
-      for (int axis = 0; axis < 3; ++axis) {
-        auto positions = kFront;
-        positions.insert(positions.end(), kBack.begin(), kBack.end());
-        positions[static_cast<std::size_t>(vertex)][axis] = bad;
-        const auto result = run(loose(positions));
-        EXPECT_EQ(result.stats.not_finite, 1u);
-        EXPECT_EQ(result.stats.emitted, 1u) << "the good triangle stays";
-        TriangleStream stream{100, 100, {{{{1, 1, 0.5f}, {50, 1, 0.5f}, {1, 50, 0.5f}}, 7}}};
-        stream.triangles[0].vertex[vertex][axis] = bad;
-        EXPECT_EQ(run(stream).stats.not_finite, 1u);
-      }
-}
-
-// Corners within a sub-unit of the guard band: clipping and snapping make the polygons slightly concave, so
-// that a fan would have a piece of opposite winding that covers a sample.
-TEST(Frontend, PiecesOfAClippedTriangleKeepItsWinding) {
-  const auto at = [](float x, float y) { return glm::vec3(x, y, 0.5f); };
-  const StreamTriangle kTriangles[] = {
-      {{at(64076, -60823), at(16383.9971f, -9145.52148f), at(-8121.66699f, 4625.58789f)}, 1},
-      {{at(57852, -40315), at(16383.9961f, -7531.72461f), at(-8113.375f, 3816.67773f)}, 1},
-      {{at(64909, -46252), at(16383.9951f, -12058.8828f), at(-8123.56445f, 6074.8125f)}, 1},
-      {{at(86855, -61750), at(16383.9971f, -5470.03711f), at(-16296.7842f, 5526.59766f)}, 1}};
-  for (const StreamTriangle& triangle : kTriangles) {
-    const TriangleStream stream{96, 64, {triangle}};
-    const auto drawn = [&](Cull cull) {
-      const auto pieces = run(stream, {.width = 96, .height = 64, .cull = cull}).triangles;
-      return lab::count_hits(*find_backend("scanline").make(), pieces, 96, 64, {});
-    };
-    const auto all = drawn(Cull::none), front = drawn(Cull::back), back = drawn(Cull::front);
-    EXPECT_EQ(*std::max_element(all.begin(), all.end()), 1u);
-    const std::vector<std::uint32_t> nothing(all.size(), 0);
-    EXPECT_TRUE((front == all && back == nothing) || (front == nothing && back == all));
   }
 }
 

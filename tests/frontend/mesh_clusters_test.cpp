@@ -17,12 +17,11 @@ namespace edgewise {
 namespace {
 
 constexpr unsigned kSide = 300;  // vertices per side; kSide² are more than a VertexWindow holds
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // A level grid around the camera, row by row, with clusters.
 Scene grid() {
-  Scene scene;
-  scene.instances.resize(1);
-  Mesh& mesh = scene.meshes.emplace_back();
+  Mesh mesh;
   for (unsigned y = 0; y < kSide; ++y)
     for (unsigned x = 0; x < kSide; ++x)
       mesh.positions.emplace_back(0.3f * (static_cast<float>(x) - 150.0f), -1.0f,
@@ -39,6 +38,7 @@ Scene grid() {
   mesh.flags.assign(mesh.triangles.size(), 0);
   mesh.flags[1] = mesh.flags[kClusterTriangles * 5] = kSameFace;
   mesh.clusters = clusters_of(mesh);
+  Scene scene = testing::scene_of(std::move(mesh));
   scene.camera.near_z = 0.5f;
   return scene;
 }
@@ -74,7 +74,6 @@ TEST(MeshClusters, HoldTheirTrianglesVertices) {
   }
   EXPECT_LT(mesh.clusters[0].high.x - mesh.clusters[0].low.x, 0.3f * kSide / 2);
 
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   mesh.positions[mesh.triangles[300].y].y = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(clusters_of(mesh)[1].low, glm::vec3(-kInfinity));
   EXPECT_EQ(clusters_of(mesh)[1].high, glm::vec3(kInfinity));
@@ -112,7 +111,7 @@ void expect_same_without_clusters(const Scene& scene, const FrontendOptions& opt
 // states.
 TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
   Scene scene = two_grids();
-  scene.meshes[0].positions[kSide * 100 + 140].y = std::numeric_limits<float>::infinity();
+  scene.meshes[0].positions[kSide * 100 + 140].y = kInfinity;
   scene.meshes[0].clusters = clusters_of(scene.meshes[0]);
   scene.meshes.push_back({{{-1, 0, -5}, {1, 0, -5}, {0, 1, -5}}, {{0, 1, 2}, {0, 2, 1}}, {1, 2}});
   scene.instances = {{.mesh = 1}, {}, {.mesh = 1}, {.scale = {-1, 2, 0.5f}, .angle = 1}, {.mesh = 1}};
@@ -135,9 +134,9 @@ TEST(MeshClusters, AreDroppedOutsideTheView) {
   above.camera.far_z = 1e7f;
   above.camera.pitch = -1.5f;
   frontend.run(above, options);
-  EXPECT_EQ(frontend.stats().whole_mesh, 0u);
+  const FrontendStats& stats = frontend.stats();
+  EXPECT_EQ(stats.whole_mesh, 0u);
   frontend.run(scene, options);
-  FrontendStats stats = frontend.stats();
   EXPECT_EQ(stats.meshes_culled, 0u);
   EXPECT_GT(stats.whole_mesh, stats.triangles / 2);
   EXPECT_LT(stats.whole_mesh, stats.triangles);
@@ -146,7 +145,6 @@ TEST(MeshClusters, AreDroppedOutsideTheView) {
       stats.whole_mesh);
   scene.camera.position.z = -1000.0f;
   frontend.run(scene, options);
-  stats = frontend.stats();
   EXPECT_EQ(stats.meshes_culled, 1u);
   EXPECT_EQ(stats.whole_mesh, stats.triangles);
 }
@@ -202,7 +200,6 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
 }
 
 TEST(MeshClusters, ExcludeNoBoxThatOverflowsOrIsNotFinite) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const ScreenTransform to_screen({Camera{}, 320, 200}, glm::dmat4(1.0));  // looks along -z
   const auto excludes = [](const ScreenTransform& m, glm::vec3 low, glm::vec3 high) {
     return ViewSides(m, view_volume({}, 320, 200)).exclude({low, high});

@@ -11,10 +11,13 @@
 #include "edgewise/obj_file.h"
 #include "frontend/checked_edits.h"
 #include "scene/origin.h"
+#include "support.h"
 #include "temp_dir.h"
 
 namespace edgewise {
 namespace {
+
+using testing::scene_of;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kWidth = 160, kHeight = 120;
@@ -46,13 +49,6 @@ Mesh mesh_of(const std::vector<glm::dvec3>& points) {
   }
   mesh.set_positions(points);
   return mesh;
-}
-
-Scene scene_of(Mesh mesh) {
-  Scene scene;
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.emplace_back();
-  return scene;
 }
 
 // The camera `from` a point, in the unit of the place's size.

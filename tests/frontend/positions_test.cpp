@@ -16,9 +16,12 @@
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "frontend/view.h"
+#include "support.h"
 
 namespace edgewise {
 namespace {
+
+using testing::spread;
 
 constexpr int kWidth = 1920, kHeight = 1080;
 constexpr double kGuardPx = contract::kMaxImageSide;
@@ -232,10 +235,6 @@ TEST(Positions, OfACameraAreWithinTheContractsBoundHoweverFarTheOriginIs) {
   EXPECT_GT(vertices, 2000);
 }
 
-float spread(Random& random, float reach) {
-  return random.uniform(-reach, reach);
-}
-
 // A floor below the camera whose corners are up to 2^30 times farther away than what is seen of it. Of a new
 // vertex on the near plane, w is known.
 TEST(Positions, OfNewVerticesHardlyDependOnTheCornersDistance) {
@@ -244,13 +243,12 @@ TEST(Positions, OfNewVerticesHardlyDependOnTheCornersDistance) {
   int vertices = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const float reach = std::ldexp(1.0f, 4 + static_cast<int>(random.below(27)));
-    Scene scene;
+    Scene scene =
+        testing::scene_of({{{-reach, 0, -reach}, {reach, 0, -reach}, {0, 0, 2 * reach}}, {{0, 1, 2}}, {0}});
     Camera& camera = scene.camera;
     camera.position = {spread(random, 3), 1.0, spread(random, 3)};
     camera.yaw = spread(random, 3), camera.pitch = random.uniform(-0.6f, -0.2f);
     camera.near_z = 1.0f, camera.far_z = 1000.0f;
-    scene.meshes.push_back({{{-reach, 0, -reach}, {reach, 0, -reach}, {0, 0, 2 * reach}}, {{0, 1, 2}}, {0}});
-    scene.instances.emplace_back();
     frontend.run(scene, {.width = kWidth, .height = kHeight, .cull = Cull::none, .keep_unsnapped = true});
     ASSERT_FALSE(frontend.unsnapped().empty()) << reach;
     const double focal = kHeight / 2.0 / std::tan(double{camera.fov_y} / 2), pitch = camera.pitch;

@@ -15,9 +15,7 @@ namespace {
 
 // Triangle i names vertices 3 · places[i] … 3 · places[i] + 2, and lies where it would without `places`.
 Scene scene_of(const std::vector<std::uint32_t>& places) {
-  Scene scene;
-  scene.instances.resize(1);
-  Mesh& mesh = scene.meshes.emplace_back();
+  Mesh mesh;
   mesh.positions.assign(3 * (std::size_t{*std::ranges::max_element(places)} + 1), {0, 0, 1e9f});
   Random random(3);
   for (const std::uint32_t place : places) {
@@ -28,7 +26,7 @@ Scene scene_of(const std::vector<std::uint32_t>& places) {
     mesh.triangles.push_back(3 * place + glm::uvec3{0, 1, 2});
     mesh.colours.push_back(place);
   }
-  return scene;
+  return testing::scene_of(std::move(mesh));
 }
 
 // Wherever its vertices lie in memory, a triangle is the same: in order, shuffled within what a worker's
@@ -73,11 +71,9 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
 // Each triangle becomes five, so that the output grows within a frame. The second frame has room.
 TEST(FrontendOrder, HoldsWhenTheOutputGrows) {
   constexpr std::size_t kCount = 70'001, kPieces = 5;
-  Scene scene;
-  scene.instances.resize(1);
-  scene.meshes.push_back({{{-368, 1374, -5}, {-1006, -1006, -5}, {1374, -368, -5}},
-                          std::vector<glm::uvec3>(kCount, {0, 1, 2}),
-                          std::vector<std::uint32_t>(kCount)});
+  const Scene scene = testing::scene_of({{{-368, 1374, -5}, {-1006, -1006, -5}, {1374, -368, -5}},
+                                         std::vector<glm::uvec3>(kCount, {0, 1, 2}),
+                                         std::vector<std::uint32_t>(kCount)});
   for (const int threads : {1, 2, 5})
     for (const bool keep : {false, true}) {
       Frontend frontend;

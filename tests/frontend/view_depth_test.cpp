@@ -109,9 +109,7 @@ TEST(ViewDepth, IsTheSameInEveryKernel) {
 // Of walls that reach beyond the guard band.
 TEST(ViewDepth, OfAClippedVertexIsThatOfItsDistanceToo) {
   Frontend frontend;
-  Scene scene;
-  scene.meshes.push_back({{}, {{0, 1, 2}}, {0}});
-  scene.instances.emplace_back();
+  Scene scene = testing::scene_of({{}, {{0, 1, 2}}, {0}});
   const Planes planes{scene.camera.near_z, scene.camera.far_z};
   std::uint64_t clipped = 0;
   for (const float w : distances(planes, 1000)) {

@@ -24,18 +24,13 @@ namespace {
 
 using namespace contract;
 
-void build(Bins& bins, std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
-           SimdTarget target, bool with_masks) {
-  StoredTriangles stored(triangles);
-  ASSERT_TRUE(bins.build(stored, grid, threads, target, with_masks));
-}
-
 class BinsOnTarget : public ::testing::TestWithParam<SimdTarget> {
  protected:
   // The lists of all cells.
   std::vector<std::vector<std::uint32_t>> lists(std::span<const ScreenTriangle> triangles,
                                                 const CellGrid& grid) {
-    build(bins_, triangles, grid, 2, GetParam(), false);
+    StoredTriangles stored(triangles);
+    EXPECT_TRUE(bins_.build(stored, grid, 2, GetParam(), false));
     std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(grid.cells()));
     for (int cell = 0; cell < grid.cells(); ++cell)
       bins_.for_each_segment(cell, [&](const Bins::Segment& segment) {
