@@ -244,11 +244,20 @@ struct GroupedNumbers : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
 };
 
-// Writes and reads a file of each kind.
-auto written_and_read(const TempDir& dir) {
-  const fs::path png = dir.path() / "a.png", ppm = dir.path() / "a.PPM", pfm = dir.path() / "b.pfm";
-  const fs::path file = write_colours(dir, "a.pfm", "2 1", {std::nanf(""), 0.1f, 0.3f, 1e-40f, 0.7f, 2.0f});
-  const Image image = read_image(file);
+// Writes and reads a file of each kind. Paths are joined before, since the standard library does that with
+// floats.
+struct Files {
+  fs::path png, ppm, pfm, colours;
+
+  explicit Files(const TempDir& dir)
+      : png(dir.path() / "a.png"),
+        ppm(dir.path() / "a.PPM"),
+        pfm(dir.path() / "b.pfm"),
+        colours(write_colours(dir, "a.pfm", "2 1", {std::nanf(""), 0.1f, 0.3f, 1e-40f, 0.7f, 2.0f})) {}
+};
+auto written_and_read(const Files& files) {
+  const auto& [png, ppm, pfm, source] = files;
+  const Image image = read_image(source);
   write_image(png, image);
   const std::string colours = file_content(png);
   write_grey16(png, {2, 1, {7, 65535}});
@@ -265,9 +274,10 @@ TEST(Locale, OfTheHostChangesNoFile) {
   const fs::path text = dir.path() / "a",
                  obj = dir.write("a.obj", "v 1234.5 0.25 1e-400\nv 12345 1.e1 0\nv 0 1 0\nf 1 2 3\n"),
                  bad = dir.write("b.obj", std::string(2000, '\n') + "v 1,5 0 0\n");
-  const auto expected = written_and_read(dir);
+  const Files files(dir);
+  const auto expected = written_and_read(files);
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new GroupedNumbers));
-  const auto found = written_and_read(dir);
+  const auto found = written_and_read(files);
   AtomicFile file(text);
   file.stream() << 1234.5;
   file.commit();
@@ -283,7 +293,8 @@ TEST(Locale, OfTheHostChangesNoFile) {
 
 TEST(FloatMode, ChangesNoPictureOfAFile) {
   const TempDir dir;
-  testing::expect_same_in_every_float_mode([&](int) { return written_and_read(dir); });
+  const Files files(dir);
+  testing::expect_same_in_every_float_mode([&](int) { return written_and_read(files); });
 }
 
 }  // namespace
