@@ -80,7 +80,12 @@ def of_facts(folder):
         """Gaps or double hits of all frames of the turning cube."""
         return next(entry[kind]["total"] for entry in accuracy["turning_cube"]["methods"] if entry["name"] == method)
 
-    return {"projected": projected, "cracks": cracks, "turning": turning}
+    def holes(scene, method):
+        """Of all frames of a scene of README's chart."""
+        return next(entry["holes"] for choice in accuracy["choices"] if choice["name"] == scene
+                    for entry in choice["methods"] if entry["name"] == method)
+
+    return {"projected": projected, "cracks": cracks, "turning": turning, "holes": holes}
 
 
 def plain(text):
@@ -130,7 +135,9 @@ def unclaimed(section, claims):
 def read_claims(path):
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-        return [{"of": [folder for name, folder in data["machines"].items() if name in claim["says"]], **claim} for claim in data["claim"]]
+        machines = data["machines"]
+        return [{"of": [machines[name] for name in machines if name in claim["says"]] or list(machines.values()), **claim}
+                for claim in data["claim"]]
     except (OSError, KeyError, tomllib.TOMLDecodeError) as error:
         raise BadInput(f"{path}: {error}") from None
 
