@@ -85,9 +85,9 @@ def choice(accuracy, bench, folder, caption):
     if not found:
         return None
     subtitle = (f"Wrong pixels of a picture, mean and range of {found[0][0].frames} frames, against its time, from vertices to picture, on one thread. "
-                "Best is bottom left. Red: a hole shows in a frame. Grey: what projecting in floats alone gets wrong.")
+                "Best is bottom left. Red: a hole shows in a frame. Grey area: what projecting in floats alone gets wrong.")
     code = kernels(bench.context.get("simd_target"))
-    peers = ("; peers project vertices themselves, but their pixels are those of our front end's floats"
+    peers = ("; peers are timed with their own projection and judged with ours"
              if any(point.method in PEERS for _, points in found for point in points) else "")
     notes = (f"Wrong: another triangle than in the exact picture of the scene's vertices. A hole: inside a surface, something else shows. Ours and the "
              f"laboratory's methods use {code} and our front end{peers}.\n{caption}")

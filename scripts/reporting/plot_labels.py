@@ -52,7 +52,8 @@ def place(points, sizes, bounds, line_points):
     def cost(i, distance, box):
         crossed = [*points, *line_points, *(p for j in placed for p in along(points[j], end_of(points[j], placed[j])))]
         leader = along(points[i], end_of(points[i], box))
-        return (distance + 9 * (box.width * box.height - area_shared(bounds, box)) + 40 * box.padded(2).count_contains(crossed)
+        away = [math.dist(p, end_of(p, box)) for p in points]  # a label should be nearest to its own point
+        return (distance + 80 * (min(away) < away[i]) + 9 * (box.width * box.height - area_shared(bounds, box)) + 40 * box.padded(2).count_contains(crossed)
                 + sum(40 + 10 * area_shared(box.padded(2), other) + 60 * other.count_contains(leader) for other in placed.values()
                       if box.padded(2).overlaps(other) or other.count_contains(leader)))
 
