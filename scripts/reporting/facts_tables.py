@@ -100,7 +100,7 @@ def pipelines_table(found, bench):
 
 
 def depth_table(found):
-    """Header and lines: the formats that are enough for the near and far plane of scenes, all else exact. Scenes of the same answers share
+    """Header and lines: the formats that are enough for the near and far plane of scenes, all else ours. Scenes of the same answers share
     a line."""
     def cell(level):
         return "enough" if level["enough"] else f"{level['worst_px']:,} wrong px"

@@ -282,7 +282,7 @@ class NeedsCommand {
     std::string text = fmt::format("{}: {}x{} px, {}\n", printable(shot.source.name), shot.frontend.width,
                                    shot.frontend.height, counted(needs.frames(), "frame"));
     text += text_of(minima, tolerance_px());
-    text += fmt::format("{:<26}{:>11}{:>9}{:>11}{:>11}\n", "wrong px, all else exact", "mean", "worst",
+    text += fmt::format("{:<26}{:>11}{:>9}{:>11}{:>11}\n", "wrong px, all else ours", "mean", "worst",
                         "hidden", "farthest");
     const auto curves = needs.curves();
     for (const lab::Curve& curve : curves) text += text_of(curve, needs.frames());
@@ -324,7 +324,7 @@ a depth buffer, and fewer bits than more. If none is right, the closest one is p
 whose worst frame has the fewest wrong pixels. Less precise is not faster: only the benchmark
 measures that.
 
-Then the wrong pixels of each level while all else is exact, per frame:
+Then the wrong pixels of each level while all else is as ours, with 8 bits, per frame:
 
   mean, worst   of all frames, and of the worst one
   hidden        the mean of those that show a triangle that the exact picture lacks
