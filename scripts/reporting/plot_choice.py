@@ -21,7 +21,7 @@ def choice_title(panels):
         others = [point.row for point in tight if not point.method.startswith(OURS)]
         return any(all(order(point.row, other) < 0 for other in others) for point in tight if point.method.startswith(OURS))
 
-    return f"Of methods without holes, tiled is fastest in {sum(map(won, panels))} of {len(panels)} scenes"
+    return f"Of these without holes, tiled is fastest in {sum(map(won, panels))} of {len(panels)} scenes"
 
 
 def kind_of(point):
@@ -85,7 +85,7 @@ def choice(accuracy, bench, folder, caption):
     if not found:
         return None
     subtitle = (f"Wrong pixels of a picture, mean and range of {found[0][0].frames} frames, against its time, from vertices to picture, on one thread. "
-                "Best is bottom left. Red: a hole shows in a frame. Grey area: what projecting in floats alone gets wrong.")
+                "Best is bottom left. Red: a hole shows in a frame. Dark grey: what projecting in floats alone gets wrong. Light grey: 0.")
     code = kernels(bench.context.get("simd_target"))
     peers = ("; peers are timed with their own projection and judged with ours"
              if any(point.method in PEERS for _, points in found for point in points) else "")
