@@ -195,6 +195,11 @@ class Terminal(Viewer):
         wait_for(lambda: "status" not in self.text(), "a clear screen")
 
     def test_keys_sizes_and_ends(self):
+        self.start("demo outlaw-triad", "1/4 A quad is kept")
+        self.type("5")
+        self.seen("2/4 [r] rotates")
+        self.type("C-c")
+        self.expect_all_as_before(130)
         self.start("view cube", "[h] help")
         self.seen("tiled")
         colours = self.text("-e")
@@ -210,11 +215,6 @@ class Terminal(Viewer):
         self.seen("gaps: 0")
         self.type("Escape")
         self.expect_all_as_before(0)
-        self.start("demo outlaw-triad", "1/4 A quad is kept")
-        self.type("5")
-        self.seen("2/4 [r] rotates")
-        self.type("C-c")
-        self.expect_all_as_before(130)
 
 
 if __name__ == "__main__":
