@@ -37,7 +37,12 @@ void* sdl_function(const char* name) {
                              "; --terminal works without one");
   return function;
 }
-#define EDGEWISE_CALL(name) (reinterpret_cast<decltype(&SDL_##name)>(sdl_function("SDL_" #name)))
+// Each place looks its function up once: events are polled and frames are shown in a loop.
+#define EDGEWISE_CALL(name)                                                                           \
+  ([] {                                                                                               \
+    static const auto function = reinterpret_cast<decltype(&SDL_##name)>(sdl_function("SDL_" #name)); \
+    return function;                                                                                  \
+  }())
 
 [[noreturn]] void fail(const char* what) {
   throw std::runtime_error(std::string(what) + ": " + EDGEWISE_CALL(GetError)() +
