@@ -128,21 +128,43 @@ Triangles double_tie() {
 
 std::span<const CoverageCase> coverage_cases() {
   static constexpr std::array kCases{
-      // Two triangles whose diagonal runs through six samples.
-      CoverageCase{"drtk_quad", {8, 8}, drtk_quad},
-      // A square on whole pixels: 64 samples on its diagonal.
-      CoverageCase{"lattice_square", {64, 64}, lattice_square}, CoverageCase{"fan", {1920, 1080}, fan},
-      CoverageCase{"mesh_on_grid", {1920, 1080}, mesh_on_grid}, CoverageCase{"mesh", {1920, 1080}, mesh},
-      // Two slivers that share an edge of 1080 px: drift from row to row.
-      CoverageCase{"tall_slivers", {64, 1080}, tall_slivers},
-      // The largest right triangle whose edge values fit 32 bits.
-      CoverageCase{"legs_181", {200, 200}, [] { return legs(181); }},
-      CoverageCase{"legs_182", {200, 200}, [] { return legs(182); }},
-      // A vertex on a neighbour's edge: a crack in every backend.
-      CoverageCase{"t_junction", {401, 221}, [] { return t_junction(false); }},
-      CoverageCase{"t_junction_split", {401, 221}, [] { return t_junction(true); }},
-      CoverageCase{"small_triangles", {64, 64}, small_triangles},
-      CoverageCase{"double_tie", {64, 64}, double_tie}};
+      CoverageCase{"drtk_quad", "two triangles whose diagonal runs through six samples", {8, 8}, drtk_quad},
+      CoverageCase{
+          "lattice_square", "a square on whole pixels: 64 samples on its diagonal", {64, 64}, lattice_square},
+      CoverageCase{"fan",
+                   "long edges in all directions: floats round them differently from both ends",
+                   {1920, 1080},
+                   fan},
+      CoverageCase{"mesh_on_grid",
+                   "a mesh on the 1/256 px grid, a quarter of its vertices on samples",
+                   {1920, 1080},
+                   mesh_on_grid},
+      CoverageCase{"mesh", "an unsnapped mesh that covers every pixel once", {1920, 1080}, mesh},
+      CoverageCase{"tall_slivers",
+                   "two slivers that share an edge of 1080 px: drift from row to row",
+                   {64, 1080},
+                   tall_slivers},
+      CoverageCase{"legs_181",
+                   "the largest right triangle whose edge values fit 32 bits",
+                   {200, 200},
+                   [] { return legs(181); }},
+      CoverageCase{"legs_182", "one pixel more: 32 bits wrap", {200, 200}, [] { return legs(182); }},
+      CoverageCase{"t_junction",
+                   "a vertex on a neighbour's edge: a crack in every backend",
+                   {401, 221},
+                   [] { return t_junction(false); }},
+      CoverageCase{"t_junction_split",
+                   "the same with the edge split: no crack",
+                   {401, 221},
+                   [] { return t_junction(true); }},
+      CoverageCase{"small_triangles",
+                   "triangles below a pixel: whole-pixel vertices lose or flip them",
+                   {64, 64},
+                   small_triangles},
+      CoverageCase{"double_tie",
+                   "an edge that misses its samples by less than a double can tell",
+                   {64, 64},
+                   double_tie}};
   return kCases;
 }
 

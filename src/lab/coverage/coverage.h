@@ -141,6 +141,7 @@ CoverageScene coverage_scene_of_floats(const Drawable& drawable, FrontendOptions
 // Small scenes on which coverage methods fail, as unsnapped screen triangles.
 struct CoverageCase {
   std::string_view name;
+  std::string_view summary;  // one line
   Size size;
   std::vector<FloatTriangle> (*make)();
 };
