@@ -1,7 +1,7 @@
 // Takes the place of GMP, which WebAssembly lacks, where the sign of a cross product is asked for. A
 // `long double` has 113 bits there. If coordinates are multiples of 2^-32 px below 2^12 px, their differences
 // have 45 bits, so products and the sum of two are exact. The exact depths of lab/truth/truth.h need more
-// bits; they also need the quotient, which is left undefined, so that no program that uses them links.
+// bits; they also need the quotient, which therefore ends the program. The page never computes them.
 #pragma once
 
 #include <compare>
@@ -13,7 +13,7 @@ struct mpq_class {
   friend mpq_class operator+(mpq_class a, mpq_class b) { return a.value + b.value; }
   friend mpq_class operator-(mpq_class a, mpq_class b) { return a.value - b.value; }
   friend mpq_class operator*(mpq_class a, mpq_class b) { return a.value * b.value; }
-  friend mpq_class operator/(mpq_class a, mpq_class b);
+  friend mpq_class operator/(mpq_class, mpq_class) { __builtin_trap(); }
   friend auto operator<=>(const mpq_class&, const mpq_class&) = default;
 };
 inline int sgn(mpq_class a) {
