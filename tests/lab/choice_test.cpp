@@ -27,6 +27,10 @@ std::map<std::string, ChoiceCounts> counts_of(const Drawable& drawable, Size siz
     drawer.draw(drawable, method, Payload::id);
     counts[method.name] = judge.count(drawer.canvas().frame);
   }
+  for (const ChoiceMethod& method : methods()) {
+    drawer.redraw(drawable, method, Payload::id);
+    EXPECT_EQ(judge.count(drawer.canvas().frame).wrong, counts[method.name].wrong) << method.name;
+  }
   return counts;
 }
 

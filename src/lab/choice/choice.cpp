@@ -64,12 +64,18 @@ std::vector<ChoiceMethod> choice_methods(std::span<const CoverageMethod* const> 
   return list;
 }
 
-void FrameDrawer::draw(const Drawable& drawable, const ChoiceMethod& method, Payload payload,
-                       const Execution& execution) {
+FrontendOptions FrameDrawer::frontend_options(const Drawable& drawable, const ChoiceMethod& method,
+                                              Payload payload) const {
   FrontendOptions options = options_of(drawable, canvas_.frame.width(), canvas_.frame.height());
   options.payload = payload;
   options.first_id = 1;
   options.subpixel_bits = method.subpixel_bits;
+  return options;
+}
+
+void FrameDrawer::draw(const Drawable& drawable, const ChoiceMethod& method, Payload payload,
+                       const Execution& execution) {
+  FrontendOptions options = frontend_options(drawable, method, payload);
   if (method.method->backend) {
     const BackendInfo& info = find_backend(method.method->info.name);
     return edgewise::draw(drawable, frontend_, options, canvas_.backend(info.name, info.make),
@@ -77,10 +83,17 @@ void FrameDrawer::draw(const Drawable& drawable, const ChoiceMethod& method, Pay
   }
   options.keep_unsnapped = true;
   const auto screen = frontend_.run(drawable, options, execution);
-  const auto unsnapped = frontend_.unsnapped();
-  floats_.resize(screen.size());
-  for (std::size_t i = 0; i < floats_.size(); ++i) floats_[i] = {unsnapped[i], screen[i].payload};
-  method.method->draw({floats_, screen}, canvas_, execution);
+  snapped_.assign(screen.begin(), screen.end());
+  floats_.clear();
+  for (std::size_t i = 0; i < screen.size(); ++i)
+    floats_.push_back({frontend_.unsnapped()[i], screen[i].payload});
+  method.method->draw({floats_, snapped_}, canvas_, execution);
+}
+
+void FrameDrawer::redraw(const Drawable& drawable, const ChoiceMethod& method, Payload payload) {
+  if (method.method->backend) return draw(drawable, method, payload);
+  frontend_.run(drawable, frontend_options(drawable, method, payload));
+  method.method->draw({floats_, snapped_}, canvas_, {});
 }
 
 ChoiceJudge::ChoiceJudge(const Drawable& drawable, Size size, int threads)

@@ -42,12 +42,19 @@ class FrameDrawer {
   // Payload::id numbers the drawable's triangles from 1; the background is 0.
   void draw(const Drawable& drawable, const ChoiceMethod& method, Payload payload,
             const Execution& execution = {});
+  // The last draw() of this drawable by any method but a backend, again. The front end, which makes floats
+  // without SIMD, runs as it does for backends, and the method gets the floats of that draw().
+  void redraw(const Drawable& drawable, const ChoiceMethod& method, Payload payload);
   const Canvas& canvas() const { return canvas_; }
 
  private:
+  FrontendOptions frontend_options(const Drawable& drawable, const ChoiceMethod& method,
+                                   Payload payload) const;
+
   Canvas canvas_;
   Frontend frontend_;
   std::vector<FloatTriangle> floats_;
+  std::vector<ScreenTriangle> snapped_;
 };
 
 struct ChoiceCounts {
