@@ -7,7 +7,7 @@ from accuracy_rows import parse_accuracy
 from bench_rows import Bench, parse_name
 from bench_tables import peer_lines, speed_table
 from facts_tables import pipelines_table
-from python_tables import python_lines, read_python
+from python_tables import python_lines
 
 NOISE = (0.99, 1.0, 1.01, 0.995, 1.005)
 
@@ -50,13 +50,13 @@ class PythonTest(FolderTest):
     def test_each_peer_has_a_line(self):
         def times(ms):
             jobs = {job: [factor * ms * noise for noise in NOISE * 2] for job, factor in (("draw", 1.0), ("redraw", 0.5), ("load", 9.0))}
-            return {"1": jobs, "2": jobs}
+            return {"2": jobs}
 
         data = {"commit": "abc", "versions": {"vtk": "VTK 9", "moderngl": "ModernGL 5"}, "pictures": [
             {"mesh": "hill", "covered": 5000, "peers": {"vtk": {"differ": 0, "holes": 2}, "moderngl": {"differ": 1234, "holes": 0}},
              "ms": {"edgewise": times(2.0), "vtk": times(8.0), "moderngl": times(1.0)}}]}
         path = self.file("results/mine/python.json", json.dumps(data))
-        vtk, moderngl, _, source = python_lines(read_python(path.parent)).splitlines()
+        vtk, moderngl, _, source = python_lines(path.parent).splitlines()
         self.assertEqual(vtk, "- Against VTK 9, a draw into new arrays is 4.0× faster in 1 of 1 scene; "
                               "a draw into reused arrays is 4.0× faster in 1 of 1 scene; load and draw is 4.0× faster in 1 of 1 scene. "
                               "Of 5k pixels 0 show another triangle, 2 of them a hole.")
