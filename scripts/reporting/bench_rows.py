@@ -53,8 +53,7 @@ def compared(a, b):
 
 def order(a, b):
     """-1 where row a is faster than b, 1 where it is slower, 0 where their repetitions are too close to call."""
-    of_a, of_b, are_rounds = compared(a, b)
-    return noise.settled(*noise.paired_claim(of_b, of_a)) if are_rounds else noise.order(of_a, of_b)
+    return noise.settled(*noise.claim(*compared(b, a)))
 
 
 def gained(before, after):

@@ -3,7 +3,7 @@ import os
 
 from bench_rows import describe_machine, gained, order, read_bench, records
 from program import read_json
-from tables import VECTORS, about, by_order, milliseconds, number, outcome, with_width
+from tables import VECTORS, about, milliseconds, number, outcome, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -38,7 +38,7 @@ def pairs(bench, peer, threads, target=None):
 
 def faster(bench, peer, threads=max(THREADS), target=None):
     """In how many scenes ours is faster than the peer, and by how much."""
-    return outcome(by_order(pairs(bench, peer, threads, target)))
+    return outcome(pairs(bench, peer, threads, target))
 
 
 def timed_peers(bench):

@@ -1,13 +1,13 @@
 """The one rule for noise: whether two timings differ, and the interval of a figure.
 
-`claim` judges unpaired repetitions, such as the rows of two runs. It is the exact rank-sum test (Mann and Whitney, "On a
-test of whether one of two random variables is stochastically larger than the other", 1947). `paired_claim` judges rounds in
-which each side ran once. It is the exact signed-rank test (Wilcoxon, "Individual comparisons by ranking methods", 1945) on
-the logarithms of the rounds' ratios. Both count ties against the claim.
+`claim` judges unpaired repetitions, such as the rows of two runs, by the exact rank-sum test (Mann and Whitney, "On a test of
+whether one of two random variables is stochastically larger than the other", 1947). It judges rounds in which each side ran
+once by the exact signed-rank test (Wilcoxon, "Individual comparisons by ranking methods", 1945) on the logarithms of the
+rounds' ratios. Both count ties against the claim.
 
-Guarantee: if neither side is faster, a claim is `settled` in at most LEVEL of all cases. `claim` needs repetitions that are
-exchangeable, `paired_claim` rounds that are independent of one another. Neither needs a normal distribution. `family` gives
-the same guarantee for several claims together.
+Guarantee: if neither side is faster, a claim is `settled` in at most LEVEL of all cases. The rank-sum test needs repetitions
+that are exchangeable, the signed-rank test rounds that are independent of one another. Neither needs a normal distribution.
+`family` gives the same guarantee for several claims together.
 
 Pairs too small for the rank-sum test to reach LEVEL count as different only across a gap of GAP. This assumes that noise
 seldom doubles a time, which a unit test checks against the repetitions in results/.
@@ -49,30 +49,14 @@ def signs(rounds):
     return cases
 
 
-def enough(n, m):
-    """Whether the rank-sum test can settle so many repetitions."""
-    return p_value(orders(n, m), 0) <= LEVEL
-
-
-def claim(a, b):
-    """(-1 if the times `a` are shorter than `b`, 1 if longer; the p-value of that claim)"""
-    n, m = len(a), len(b)
-    if not enough(n, m):
-        gap = 0 if n + m < 3 else (max(b) * GAP < min(a)) - (max(a) * GAP < min(b))
+def rank_sum(before, after):
+    n, m = len(before), len(after)
+    if p_value(orders(n, m), 0) > LEVEL:
+        gap = 0 if n + m < 3 else (max(before) * GAP < min(after)) - (max(after) * GAP < min(before))
         return gap, 0.0 if gap else 1.0
-    won = sum(x < y for x in a for y in b)
-    lost = sum(x > y for x in a for y in b)
-    return (-1 if won > lost else 1), p_value(orders(n, m), n * m - max(won, lost))
-
-
-def settled(sign, p):
-    """The sign, or 0 if it is too close to call."""
-    return sign if p <= LEVEL else 0
-
-
-def order(a, b):
-    """-1 if the times `a` are shorter than `b`, 1 if longer, 0 if too close to call."""
-    return settled(*claim(a, b))
+    longer = sum(x < y for x in before for y in after)
+    shorter = sum(x > y for x in before for y in after)
+    return (-1 if shorter > longer else 1), p_value(orders(n, m), n * m - max(shorter, longer))
 
 
 def ratios(before, after):
@@ -80,11 +64,7 @@ def ratios(before, after):
     return [b / a for a, b in zip(before, after, strict=True)]
 
 
-def paired_claim(before, after):
-    """claim() that `after` is the shorter of two lists of times of the same rounds, or the longer. Fewer rounds than the
-    signed-rank test needs are judged as repetitions."""
-    if len(before) < fewest_rounds():
-        return claim(after, before)
+def signed_rank(before, after):
     logs = [math.log(ratio) for ratio in ratios(before, after)]
 
     def against(sign):
@@ -94,6 +74,17 @@ def paired_claim(before, after):
 
     lost, sign = min((against(1), 1), (against(-1), -1))
     return sign, p_value(signs(len(logs)), lost)
+
+
+def claim(before, after, are_rounds):
+    """(-1 if the times `after` are the shorter ones, 1 if the longer; the p-value of that claim). Fewer rounds than the signed-rank test
+    needs are judged as repetitions."""
+    return (signed_rank if are_rounds and len(before) >= fewest_rounds() else rank_sum)(before, after)
+
+
+def settled(sign, p):
+    """The sign of a claim, or 0 if it is too close to call."""
+    return sign if p <= LEVEL else 0
 
 
 def fewest_rounds(level=LEVEL):
