@@ -6,16 +6,18 @@ BACKEND+frontend, "cell" for a whole frame of factors.py, "choice" for one of ch
 laboratory, or "needs" for a pipeline of it.
 """
 import os
+from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import noise
-from program import BadInput, read_json
+from program import parsed
 
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 COUNTERS = ("triangles", "width", "height", "covered_px", "overdraw", "depth_ties", "wrong_px")
 DIGITS = 5  # of the times in results/: more than any noise, so that no verdict changes
 LABORATORY = "lab"
+GPU = "gpu"  # the peer that has no number of threads
 
 
 @dataclass
@@ -45,16 +47,13 @@ class Row:
 
 def compared(a, b):
     """The times of both rows, and whether they are pairs: those of the rounds that timed both."""
-    if a is b or a.rounds and b.rounds:
-        rounds = min(len(a.times_ms), len(b.times_ms))
-        return a.times_ms[:rounds], b.times_ms[:rounds], True
-    return a.times_ms, b.times_ms, False
+    rounds = min(len(a.times_ms), len(b.times_ms)) if a.rounds and b.rounds else None
+    return a.times_ms[:rounds], b.times_ms[:rounds], rounds is not None
 
 
 def order(a, b):
     """-1 where row a is faster than b, 1 where it is slower, 0 where their repetitions are too close to call."""
-    of_a, of_b, paired = compared(a, b)
-    return noise.paired_order(of_b, of_a) if paired else noise.order(of_a, of_b)
+    return noise.settled(*noise.claim(*compared(b, a)))
 
 
 def gained(before, after):
@@ -89,9 +88,11 @@ class Bench:
         row = self.rows.get(name)
         return row if row and row.times_ms else None
 
-    def frame(self, who, scene, threads):
-        """The row of a backend's or peer's whole frame: front end and backend."""
-        return self.find(f"{who}+frontend/{scene}/threads:{threads}")
+    def frame(self, who, scene, threads, target=None):
+        """The row of a backend's or peer's whole frame, front end and backend; ours with the SIMD of `target`, by default the widest. A
+        GPU's has one row, which is compared with ours on any number of threads."""
+        limit = "" if target in (None, self.context.get("simd_target")) else f"/target:{target}"
+        return self.find(f"{who}+frontend/{scene}{limit}/threads:{1 if who == GPU else threads}")
 
     def sweep(self, key):
         """The timed rows that have this key."""
@@ -100,8 +101,7 @@ class Bench:
     @property
     def scenes(self):
         """The scenes of the main table, in the suite's order."""
-        plain = (r.scene for r in self.rows.values() if r.scene and set(r.keys) == {"threads"})
-        return list(dict.fromkeys(plain))
+        return list(dict.fromkeys(r.scene for r in self.rows.values() if r.scene and set(r.keys) == {"threads"}))
 
 
 def facts_of(folder):
@@ -110,10 +110,10 @@ def facts_of(folder):
 
 
 def records(folder, name):
-    """The files NAME.json in results/, of all machines: this folder's first. The name may be a pattern."""
+    """The files NAME.json in results/, of all machines: this folder's first."""
     machines = folder.resolve().parent
     beside = sorted(machines.glob(f"*/{name}.json")) if machines.name == "results" else []
-    return [*sorted(folder.glob(f"{name}.json")), *(path for path in beside if path.parent != folder.resolve())]
+    return [*folder.glob(f"{name}.json"), *(path for path in beside if path.parent != folder.resolve())]
 
 
 def source_of(path, data):
@@ -122,29 +122,18 @@ def source_of(path, data):
     return f"`{path.parent.name}`" + (f", commit {commit}" if commit else "")
 
 
-def read_repetitions(entries):
-    """{name: row} of Google Benchmark's entries, one for each repetition."""
+def joined(repetitions):
+    """Rows as compact() writes them, of Google Benchmark's entries, one for each repetition."""
     rows = {}
-    for entry in entries:
+    for entry in repetitions:
         if entry.get("run_type") == "aggregate":
             continue
-        name = entry.get("run_name", entry["name"])
-        row = rows.setdefault(name, parse_name(name))
+        row = rows.setdefault(entry["name"], {"ms": []})
         if entry.get("error_occurred"):
-            row.error = entry.get("error_message", "error")
+            row["error"] = entry.get("error_message", "error")
             continue
-        row.times_ms.append(entry["real_time"] * MS[entry["time_unit"]])
-        row.counters |= {key: float(entry[key]) for key in COUNTERS if key in entry}  # later rows say what differs
-    return rows
-
-
-def read_rows(entries):
-    """{name: row} of compact()."""
-    rows = {}
-    for name, entry in entries.items():
-        rows[name] = row = parse_name(name)
-        row.times_ms, row.error = [float(ms) for ms in entry["ms"]], entry.get("error", "")
-        row.counters = {key: float(entry[key]) for key in COUNTERS if key in entry}
+        row["ms"].append(entry["real_time"] * MS[entry["time_unit"]])
+        row.update((key, entry[key]) for key in COUNTERS if key in entry)  # later rows say what differs
     return rows
 
 
@@ -158,28 +147,27 @@ def compact(bench):
                             **{key: rounded(value) for key, value in row.counters.items()}} for name, row in bench.rows.items()}}
 
 
-def read_bench(folder_or_file):
-    path = Path(folder_or_file)
-    if path.is_dir():
-        path = path / "bench.json"
-    data = read_json(path)
-    try:
-        rows = read_rows(data["rows"]) if "rows" in data else read_repetitions(data["benchmarks"])
-        context = data.get("context", {})
-    except (KeyError, TypeError, AttributeError, ValueError) as error:
-        raise BadInput(f"{path}: no result of Google Benchmark or of scripts/publish: {error}") from None
+def parse_bench(data):
+    entries, context = data["rows"] if "rows" in data else joined(data["benchmarks"]), data.get("context", {})
     rounds = int(context.get("rounds", 0))  # of most rows; older runs shuffled all repetitions
-    for row in rows.values():
+    rows = {name: parse_name(name) for name in entries}
+    for row, entry in zip(rows.values(), entries.values()):
+        row.times_ms, row.error = [float(ms) for ms in entry["ms"]], entry.get("error", "")
+        row.counters = {key: float(entry[key]) for key in COUNTERS if key in entry}
         row.rounds = 0 < rounds <= len(row.times_ms)
     return Bench(context, rows)
 
 
+def read_bench(folder_or_file):
+    path = Path(folder_or_file)
+    return parsed(path / "bench.json" if path.is_dir() else path, parse_bench, "Google Benchmark' or 'scripts/publish")
+
+
 def describe_machine(machine):
     """One line under every figure and table."""
-    cores = machine.get("cores", "?")
+    told = defaultdict(lambda: "unknown", machine)
+    cores = told["cores"]
     usable = machine.get("usable_cores", cores)
     part = "" if usable == cores else f"{usable} usable of "
-    return (f"{machine.get('cpu_model', 'unknown CPU')}, {part}{cores} core{'' if cores == 1 else 's'}, "
-            f"{machine.get('simd_best', 'unknown SIMD')}, {machine.get('memory_gib', '?')} GiB; "
-            f"{machine.get('os', 'unknown system')}; {machine.get('compiler', 'unknown compiler')}, "
-            f"{machine.get('build_type', 'unknown build')}; commit {machine.get('commit', 'unknown')}")
+    return (f"{told['cpu_model']}, {part}{cores} core{'' if cores == 1 else 's'}, {told['simd_best']}, {told['memory_gib']} GiB; "
+            f"{told['os']}; {told['compiler']}, {told['build_type']}; commit {told['commit']}")

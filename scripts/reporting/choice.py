@@ -1,7 +1,7 @@
 """The chart for choosing a method, as figures: each method's wrong pixels in a moving picture, and the milliseconds of that picture."""
+from collections import namedtuple
 from typing import NamedTuple
 
-from bench_rows import Row
 from tables import milliseconds, number
 
 # How charts and tables name the methods, in their order.
@@ -9,21 +9,9 @@ TITLES = {"float_lt": "strict <", "float_le": "loose ≤", "float_top_left": "fl
           "fixed_4": "fixed 4 bits", "tiled_8": "tiled, 8 bits", "tiled_12": "tiled, 12 bits", "tiled_15": "tiled, 15 bits", "llvmpipe": "llvmpipe",
           "swiftshader": "SwiftShader"}
 OURS, PEERS = "tiled_", ("llvmpipe", "swiftshader")
-MAIN_CHART = "choice"  # its file
 
-
-class Wrong(NamedTuple):
-    """Wrong pixels a frame, and the holes of all frames."""
-    mean: float
-    least: int
-    most: int
-    holes: int
-
-
-class Point(NamedTuple):
-    method: str
-    wrong: Wrong
-    row: Row  # the time of the first frame
+Wrong = namedtuple("Wrong", "mean least most holes")  # wrong pixels a frame, and the holes of all frames
+Point = namedtuple("Point", "method wrong row")  # with the time of the first frame
 
 
 class Panel(NamedTuple):
@@ -57,5 +45,6 @@ def choice_table(accuracy, bench):
         wrong = f"{number(point.wrong.mean, 2)} px"
         return f"{f'**{wrong}**' if point.wrong.holes else wrong}, {milliseconds(point.row)} ms"
 
+    shown = {method: title for method, title in TITLES.items() if any(method in points for points in panels)}
     return (["method", *(f"`{panel.scene}`" for panel in accuracy.choices)],
-            [[title, *(cell(points.get(method)) for points in panels)] for method, title in TITLES.items() if any(method in points for points in panels)])
+            [[title, *(cell(points.get(method)) for points in panels)] for method, title in shown.items()])

@@ -2,20 +2,16 @@
 import re
 import tomllib
 from functools import cache
-from pathlib import Path
 
 from bench_rows import gained, read_bench
 from factors import cells, chosen, gains
 from noise import median
-from program import ROOT, BadInput, read_json
+from program import ROOT, read_json
 
 SECTION = re.compile(r"^## What we found$(.*?)^<!-- results:", re.MULTILINE | re.DOTALL)
+FACTS = "facts"  # the folder of errors, which are the same on every machine
 # Random triangles, and squares of 4 px in two triangles: much is hidden, or most triangles are tiny.
-STREAMS = ("large", "medium", "small", "micro", "sliver", "grid4")
-
-
-class NotTimed(Exception):
-    """The folder lacks the rows of an expression."""
+STREAMS = {"large", "medium", "small", "micro", "sliver", "grid4"}
 
 
 @cache
@@ -23,44 +19,31 @@ def of_machine(folder):
     """What an expression about times may use. Speed-ups are of whole frames."""
     bench = read_bench(folder)
 
-    def ratios(before, after, threads, target=None):
-        """The speed-ups from one drawer to another, one per scene. `target` limits the SIMD of `after`."""
-        limit = f"/target:{target}" if target not in (None, bench.context.get("simd_target")) else ""
-        return speed_ups((bench.frame(before, scene, threads), bench.find(f"{after}+frontend/{scene}{limit}/threads:{threads}"))
-                         for scene in bench.scenes)
+    def frames(who, threads, target=None):
+        """{scene: row} of a backend or peer. `target` limits the SIMD of ours."""
+        return {scene: row for scene in bench.scenes if (row := bench.frame(who, scene, threads, target))}
 
-    def scaling(who, threads):
-        """The speed-ups from one thread to `threads`, one per scene."""
-        return speed_ups((bench.frame(who, scene, 1), bench.frame(who, scene, threads)) for scene in bench.scenes)
+    def bands(threads, are_streams):
+        """{scene: the row of the fastest cell with SIMD in bands}: of STREAMS, or of all others."""
+        rows = {}
+        for cell, row in chosen(cells(bench), simd=True, traversal="bands", extra="", threads=threads).items():
+            rows.setdefault(cell.scene, []).append(row)
+        return {scene: min(rows[scene], key=lambda row: row.median_ms) for scene in (STREAMS if are_streams else rows.keys() - STREAMS)}
+
+    def ratios(before, after):
+        """The speed-ups, one per scene that was timed on both sides."""
+        return [gained(row, after[scene]) for scene, row in before.items() if scene in after]
 
     def factor(name):
         """{where: Gain} of a factor with SIMD."""
-        return timed({gain.where: gain for gain in gains(bench) if gain.factor == name})
+        return {gain.where: gain for gain in gains(bench) if gain.factor == name}
 
-    def bands(threads, are_streams):
-        """The speed-ups of `tiled` over the fastest cell with SIMD in bands, one per scene: of STREAMS, or of all others."""
-        fastest = {}
-        for cell, row in chosen(cells(bench), simd=True, traversal="bands", threads=threads).items():
-            fastest[cell.scene] = min(row, fastest.get(cell.scene, row), key=lambda row: row.median_ms)
-        if not set(STREAMS) <= set(fastest):
-            raise NotTimed
-        return speed_ups((row, bench.frame("tiled", scene, threads)) for scene, row in fastest.items()
-                         if (scene in STREAMS) == are_streams)
-
-    def speed_ups(pairs):
-        return timed([gained(before, after) for before, after in pairs if before and after])
-
-    def timed(found):
-        if not found:
-            raise NotTimed
-        return found
-
-    return {"ratios": ratios, "scaling": scaling, "factor": factor, "bands": bands}
+    return {"frames": frames, "bands": bands, "ratios": ratios, "factor": factor}
 
 
 @cache
 def of_facts(folder):
-    """What an expression about errors may use."""
+    """What an expression about errors may use; {method: entry} of all frames of the turning cube, and of each scene of README's chart."""
     accuracy = read_json(folder / "accuracy.json")
 
     def scores(family, method):
@@ -76,16 +59,11 @@ def of_facts(folder):
         """{coverage scene: gaps or double hits at shared edges}"""
         return {scene["name"]: entry["cracks"][kind] for scene, entry in scores("coverage", method) if "cracks" in entry}
 
-    def turning(method, kind):
-        """Gaps or double hits of all frames of the turning cube."""
-        return next(entry[kind]["total"] for entry in accuracy["turning_cube"]["methods"] if entry["name"] == method)
+    def by_method(of):
+        return {entry["name"]: entry for entry in of["methods"]}
 
-    def holes(scene, method):
-        """Of all frames of a scene of README's chart."""
-        return next(entry["holes"] for choice in accuracy["choices"] if choice["name"] == scene
-                    for entry in choice["methods"] if entry["name"] == method)
-
-    return {"projected": projected, "cracks": cracks, "turning": turning, "holes": holes}
+    return {"projected": projected, "cracks": cracks, "turning": by_method(accuracy["turning_cube"]),
+            "choices": {choice["name"]: by_method(choice) for choice in accuracy["choices"]}}
 
 
 def plain(text):
@@ -93,21 +71,14 @@ def plain(text):
     return " ".join(re.sub(r"\]\([^)]*\)", "]", text).translate(str.maketrans("", "", "[]*`")).split())
 
 
-def values(claim, names):
-    """{expression: value}"""
-    common = {"__builtins__": {}, "median": median, "min": min, "max": max, "sum": sum}
-    return {expression: eval(expression, {**common, **names}) for expression in claim["bounds"]}  # our own file's
-
-
 def evaluated(claim, results):
-    """{folder: {expression: value}} of a claim."""
-    if claim["of"] == "facts":
-        return {"facts": values(claim, of_facts(results / "facts"))}
-    found = {}
-    for path in sorted(results.glob("*/bench.json")):
+    """{folder: {expression: value}} of a claim, for each folder that has what its expressions need."""
+    found, are_facts = {}, claim["of"] == [FACTS]
+    for path in sorted(results.glob("*/accuracy.json" if are_facts else "*/bench.json")):
+        names = {"__builtins__": {}, "median": median, "min": min, "max": max, "sum": sum, **(of_facts if are_facts else of_machine)(path.parent)}
         try:
-            found[path.parent.name] = values(claim, of_machine(path.parent))
-        except NotTimed:
+            found[path.parent.name] = {expression: eval(expression, names) for expression in claim["bounds"]}  # our own file's
+        except (KeyError, ValueError):  # no such row, or the median of none
             pass
     return found
 
@@ -116,8 +87,8 @@ def faults(claim, found, page):
     """Why a claim does not hold, one line each. `page`: the text of README.md."""
     if plain(claim["says"]) not in page:
         yield "is not in README.md"
-    if claim["of"] != "facts" and set(found) != set(claim["of"]):
-        yield f"was timed on {', '.join(found) or 'no machine'}, not on {', '.join(claim['of']) or 'one that it names'}"
+    if set(found) != set(claim["of"]):
+        yield f"can be evaluated on {', '.join(found) or 'no folder'}, not on {', '.join(claim['of'])}"
     for where, by_expression in found.items():
         for expression, value in by_expression.items():
             low, high = claim["bounds"][expression]
@@ -132,23 +103,16 @@ def unclaimed(section, claims):
             if re.search(r"\d[\d,.]*( million|×| in | holes)", sentence) and not any(sentence.strip("- ") in text for text in said)]
 
 
-def read_claims(path):
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-        machines = data["machines"]
-        return [{"of": [machines[name] for name in machines if name in claim["says"]] or list(machines.values()), **claim}
-                for claim in data["claim"]]
-    except (OSError, KeyError, tomllib.TOMLDecodeError) as error:
-        raise BadInput(f"{path}: {error}") from None
-
-
-def check(root=ROOT):
-    """Prints each claim and on how many machines it holds; returns the number of faults."""
-    readme, claims = Path(root, "README.md").read_text(encoding="utf-8"), read_claims(root / "scripts/claims.toml")
+def check():
+    """Prints each claim and on how many folders of results it holds; returns the number of faults."""
+    readme, toml = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "scripts/claims.toml"))
+    data = tomllib.loads(toml)
+    machines = data["machines"]
+    claims = [{"of": [machines[name] for name in machines if name in claim["says"]] or list(machines.values()), **claim} for claim in data["claim"]]
     told = [f"no claim: {sentence}" for sentence in unclaimed(SECTION.search(readme)[1], claims)]
     for claim in claims:
-        found = evaluated(claim, root / "results")
-        print(f"{'facts' if claim['of'] == 'facts' else len(found):>5}  {plain(claim['says'])[:90]}")
+        found = evaluated(claim, ROOT / "results")
+        print(f"{'facts' if claim['of'] == [FACTS] else len(found):>5}  {plain(claim['says'])[:90]}")
         told += [f"{claim['says'][:40]}: {fault}" for fault in faults(claim, found, plain(readme))]
     print("\n".join(told))
     return len(told)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import noise
 from bench_rows import compared, read_bench
 from program import ROOT, BadInput, git
-from tables import number, percent
+from tables import number
 
 BUILDS = ROOT / "build" / "compare"
 PROGRAM = "edgewise_bench"
@@ -146,10 +146,10 @@ def obstacle(before, after):
 def judged(times):
     """The verdict on each pair of rows, as of bench_rows.compared(), and how many are false. Rounds are judged as a family. Two
     results have too many rows with too few repetitions for that."""
+    claims = [noise.claim(*of) for of in times]
     if all(are_rounds for *_, are_rounds in times):
-        return (noise.family([noise.paired_claim(before, after) for before, after, _ in times]),
-                f"The chance that any of these changes is false: at most {percent(noise.LEVEL)}.")
-    return ([noise.order(after, before) for before, after, _ in times],
+        return noise.family(claims), f"The chance that any of these changes is false: at most {100 * noise.LEVEL:g} %."
+    return ([noise.settled(*claim) for claim in claims],
             f"If nothing changed, at most {number(noise.LEVEL * len(times), 2)} rows in {len(times)} would be told as changed.")
 
 

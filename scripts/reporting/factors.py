@@ -2,7 +2,7 @@
 
 Cells are the rows cell/SCENE/traversal:bands|tiles/fill:spans|edges/simd:TARGET[/with:hiz[+masks]]/threads:N.
 """
-from itertools import product
+from collections import namedtuple
 from typing import NamedTuple
 
 from bench_rows import gained, order
@@ -12,17 +12,9 @@ from tables import about, kernels
 SCALAR = "scalar"
 HIZ, MASKS = "hiz", "hiz+masks"
 ELSEWHERE = "elsewhere"
-DEEP, SMALL_PX = 4, 10  # where HiZ and masks can act: overdraw; covered pixels per triangle
-TRAVERSALS, FILLS = ("bands", "tiles"), ("spans", "edges")
+DEEP, SMALL_PX = 4, 10  # where HiZ and masks can act: overdraw; covered pixels per triangle, culled ones included
 
-
-class Cell(NamedTuple):
-    scene: str
-    traversal: str
-    fill: str
-    simd: bool
-    extra: str  # "", HIZ or MASKS
-    threads: int
+Cell = namedtuple("Cell", "scene traversal fill simd extra threads")  # simd: whether it is used; extra: "", HIZ or MASKS
 
 
 def cells(bench):
@@ -31,37 +23,25 @@ def cells(bench):
                  row.threads): row for row in bench.sweep("traversal")}
 
 
-def most_threads(found):
-    return max((cell.threads for cell in found), default=1)
-
-
 def chosen(found, **levels):
-    """{Cell: row} of the cells with these levels; unless `levels` say otherwise, on the most threads, and without HiZ and masks."""
-    levels = {"threads": most_threads(found), "extra": "", **levels}
-    return {cell: row for cell, row in found.items() if all(getattr(cell, field) == level for field, level in levels.items())}
-
-
-def triangle_px(row):
-    """Covered pixels per triangle, culled ones included."""
-    return row.counters["covered_px"] / row.counters["triangles"]
+    """{Cell: row} of the cells with these levels."""
+    return {cell: row for cell, row in found.items() if levels.items() <= cell._asdict().items()}
 
 
 def factors(threads):
-    """(factor, where, field of a cell, level before, level after, levels of other factors, whether a row's scene is meant)"""
-    def everywhere(_):
-        return True
+    """(factor, field of a cell, level before, level after, where: the group of cells that a cell and its row belong to)"""
+    def depth(_, row):
+        return f"overdraw ≥{DEEP}" if row.counters["overdraw"] >= DEEP else ELSEWHERE
 
-    for fill in FILLS:
-        yield "tiles over bands", f"with {fill}", "traversal", *TRAVERSALS, {"fill": fill}, everywhere
-    for traversal in TRAVERSALS:
-        yield "edges over spans", f"in {traversal}", "fill", *FILLS, {"traversal": traversal}, everywhere
-    for traversal, fill in product(TRAVERSALS, FILLS):
-        yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}, everywhere
-    for where, deep in ((f"overdraw ≥{DEEP}", True), (ELSEWHERE, False)):
-        yield "HiZ", where, "extra", "", HIZ, {}, lambda row, deep=deep: (row.counters["overdraw"] >= DEEP) == deep
-    for where, small in ((f"triangles ≤{SMALL_PX} px", True), (ELSEWHERE, False)):
-        yield "masks, with HiZ", where, "extra", HIZ, MASKS, {}, lambda row, small=small: (triangle_px(row) <= SMALL_PX) == small
-    yield f"{threads} threads over 1", "no HiZ or masks", "threads", 1, threads, {}, everywhere
+    def size(_, row):
+        return f"triangles ≤{SMALL_PX} px" if row.counters["covered_px"] <= SMALL_PX * row.counters["triangles"] else ELSEWHERE
+
+    return (("tiles over bands", "traversal", "bands", "tiles", lambda cell, _: f"with {cell.fill}"),
+            ("edges over spans", "fill", "spans", "edges", lambda cell, _: f"in {cell.traversal}"),
+            ("SIMD over scalar", "simd", False, True, lambda cell, _: f"{cell.fill} in {cell.traversal}"),
+            ("HiZ", "extra", "", HIZ, depth),
+            ("masks, with HiZ", "extra", HIZ, MASKS, size),
+            (f"{threads} threads over 1", "threads", 1, threads, lambda *_: "no HiZ or masks"))
 
 
 class Gain(NamedTuple):
@@ -81,30 +61,29 @@ class Gain(NamedTuple):
     def median(self):
         return median(self.by_scene)
 
-    @property
-    def text(self):
-        """The median of the scenes, and its 95 % interval over scenes."""
-        low, high = (about(end).removesuffix("×") for end in interval(self.by_scene))
-        return f"{about(self.median)} ({low} to {high})"
-
-    @property
-    def counts(self):
-        """In how many pairs the factor is settled faster and slower."""
-        return f"{self.orders.count(-1)} / {self.orders.count(1)} of {len(self.orders)}"
-
 
 def gains(bench):
-    """A Gain of each factor on the most threads, in all scenes."""
+    """The Gains of each factor in all scenes; unless it is about them, on the most threads, without HiZ and masks."""
     found = cells(bench)
-    for factor, where, field, before, after, levels, meant in factors(most_threads(found)):
-        pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": True, **levels, field: after}).items()
-                 if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
-        if pairs:
+    most = max((cell.threads for cell in found), default=1)
+    for factor, field, before, after, where_of in factors(most):
+        groups = {}
+        for cell, row in chosen(found, **{"simd": True, "extra": "", "threads": most, field: after}).items():
+            other = cell._replace(**{field: before})
+            if other in found and other != cell:
+                groups.setdefault(where_of(cell, row), []).append((cell.scene, found[other], row))
+        for where, pairs in sorted(groups.items(), key=lambda group: group[0] == ELSEWHERE):
             yield Gain(factor, where, field, sorted((gained(other, row), scene) for scene, other, row in pairs),
                        [order(row, other) for _, other, row in pairs])
 
 
+def told(gain):
+    """A line: the median of the scenes and its interval over scenes, and in how many pairs the factor is settled faster and slower."""
+    low, high = (about(end).removesuffix("×") for end in interval(gain.by_scene))
+    return [f"{gain.factor}, {gain.where}", f"{about(gain.median)} ({low} to {high})",
+            f"{gain.orders.count(-1)} / {gain.orders.count(1)} of {len(gain.orders)}"]
+
+
 def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
-    return (["factor", kernels(bench.context.get("simd_target")), "settled faster / slower"],
-            [[f"{gain.factor}, {gain.where}", gain.text, gain.counts] for gain in gains(bench)])
+    return ["factor", kernels(bench.context.get("simd_target")), "settled faster / slower"], list(map(told, gains(bench)))

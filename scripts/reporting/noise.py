@@ -1,22 +1,22 @@
 """The one rule for noise: whether two timings differ, and the interval of a figure.
 
-`order` judges unpaired repetitions, such as the rows of two runs. It is the exact rank-sum test (Mann and Whitney, "On a
-test of whether one of two random variables is stochastically larger than the other", 1947). `paired_order` judges rounds in
-which each side ran once. It is the exact signed-rank test (Wilcoxon, "Individual comparisons by ranking methods", 1945) on
-the logarithms of the rounds' ratios. Both count ties against the claim.
+`claim` judges unpaired repetitions, such as the rows of two runs, by the exact rank-sum test (Mann and Whitney, "On a test of
+whether one of two random variables is stochastically larger than the other", 1947). It judges rounds in which each side ran
+once by the exact signed-rank test (Wilcoxon, "Individual comparisons by ranking methods", 1945) on the logarithms of the
+rounds' ratios. Both count ties against the claim.
 
-Guarantee: if neither side is faster, a test claims a difference in at most LEVEL of all cases. `order` needs repetitions
-that are exchangeable, `paired_order` rounds that are independent of one another. Neither needs a normal distribution. `family`
-gives the same guarantee for several claims together.
+Guarantee: if neither side is faster, a claim is `settled` in at most LEVEL of all cases. The rank-sum test needs repetitions
+that are exchangeable, the signed-rank test rounds that are independent of one another. Neither needs a normal distribution.
+`family` gives the same guarantee for several claims together.
 
 Pairs too small for the rank-sum test to reach LEVEL count as different only across a gap of GAP. This assumes that noise
 seldom doubles a time, which a unit test checks against the repetitions in results/.
 """
 import math
 import random
-import statistics
-from functools import cache
-from itertools import accumulate, count
+from functools import cache, reduce
+from operator import truediv
+from statistics import median
 
 LEVEL = 0.01  # of false alarms
 CONFIDENCE = 0.95  # of intervals
@@ -25,59 +25,38 @@ GAP = 2.0
 DRIFT = 0.03
 RESAMPLES = 2000
 
-median = statistics.median
 
-
-def chances(counts):
-    """Two-sided p-value of each value of a statistic; `counts`: the number of equally probable cases with each value."""
-    total = sum(counts)
-    return [min(1.0, 2 * cases / total) for cases in accumulate(counts)]
+def p_value(cases, value):
+    """Two-sided. `cases`: in how many equally probable cases the statistic is 0, 1, …"""
+    return min(1.0, 2 * sum(cases[:value + 1]) / sum(cases))
 
 
 @cache
-def chances_of_pairs(n, m):
-    """The p-value by how many of the n·m pairs of repetitions, one of each side, the faster side fails to win."""
-    counts = [1] + [0] * (n * m)  # by generating functions: the product of (1 - q^(m+i)) / (1 - q^i) for i up to n
-    for i in range(1, n + 1):
-        for lost in range(n * m, m + i - 1, -1):
-            counts[lost] -= counts[lost - m - i]
-        for lost in range(i, n * m + 1):
-            counts[lost] += counts[lost - i]
-    return chances(counts)
+def orders(n, m):
+    """In how many orders of n + m repetitions the side with n loses 0, 1, … n·m of the pairs of one repetition of each side."""
+    if n == 0 or m == 0:
+        return [1]
+    # The slowest repetition is one of n, which loses to all m, or one of m.
+    return [a + b for a, b in zip([0] * m + orders(n - 1, m), orders(n, m - 1) + [0] * n)]
 
 
 @cache
-def chances_of_ranks(rounds):
-    """The p-value by the sum of the ranks of the rounds that contradict the claim."""
-    counts = [1]
+def signs(rounds):
+    """In how many choices of signs the ranks of the negative rounds add up to 0, 1, …"""
+    cases = [1]
     for rank in range(1, rounds + 1):
-        counts = [a + b for a, b in zip(counts + [0] * rank, [0] * rank + counts)]
-    return chances(counts)
+        cases = [a + b for a, b in zip(cases + [0] * rank, [0] * rank + cases)]
+    return cases
 
 
-def enough(n, m):
-    """Whether the rank-sum test can settle so many repetitions."""
-    return chances_of_pairs(n, m)[0] <= LEVEL
-
-
-def claim(a, b):
-    """(-1 if the times `a` are shorter than `b`, 1 if longer; the p-value of that claim)"""
-    n, m = len(a), len(b)
-    if not enough(n, m):
-        gap = 0 if n + m < 3 else (max(b) * GAP < min(a)) - (max(a) * GAP < min(b))
+def rank_sum(before, after):
+    n, m = len(before), len(after)
+    if p_value(orders(n, m), 0) > LEVEL:
+        gap = 0 if n + m < 3 else (max(before) * GAP < min(after)) - (max(after) * GAP < min(before))
         return gap, 0.0 if gap else 1.0
-    won = sum(x < y for x in a for y in b)
-    lost = sum(x > y for x in a for y in b)
-    return (-1 if won > lost else 1), chances_of_pairs(n, m)[n * m - max(won, lost)]
-
-
-def order(a, b):
-    """-1 if the times `a` are shorter than `b`, 1 if longer, 0 if too close to call."""
-    return settled(*claim(a, b))
-
-
-def settled(sign, p):
-    return sign if p <= LEVEL else 0
+    longer = sum(x < y for x in before for y in after)
+    shorter = sum(x > y for x in before for y in after)
+    return (-1 if shorter > longer else 1), p_value(orders(n, m), n * m - max(shorter, longer))
 
 
 def ratios(before, after):
@@ -85,11 +64,7 @@ def ratios(before, after):
     return [b / a for a, b in zip(before, after, strict=True)]
 
 
-def paired_claim(before, after):
-    """claim() that `after` is the shorter of two lists of times of the same rounds, or the longer. Fewer rounds than the
-    signed-rank test needs are judged as repetitions."""
-    if len(before) < fewest_rounds():
-        return claim(after, before)
+def signed_rank(before, after):
     logs = [math.log(ratio) for ratio in ratios(before, after)]
 
     def against(sign):
@@ -98,37 +73,35 @@ def paired_claim(before, after):
         return sum(rank for rank, log in enumerate(ranked, 1) if log <= 0)
 
     lost, sign = min((against(1), 1), (against(-1), -1))
-    return sign, chances_of_ranks(len(logs))[lost]
+    return sign, p_value(signs(len(logs)), lost)
 
 
-def paired_order(before, after):
-    """-1 if `after` is the shorter, 1 if the longer, 0 if too close to call."""
-    return settled(*paired_claim(before, after))
+def claim(before, after, are_rounds):
+    """(-1 if the times `after` are the shorter ones, 1 if the longer; the p-value of that claim). Fewer rounds than the signed-rank test
+    needs are judged as repetitions."""
+    return (signed_rank if are_rounds and len(before) >= fewest_rounds() else rank_sum)(before, after)
 
 
-@cache
+def settled(sign, p):
+    """The sign of a claim, or 0 if it is too close to call."""
+    return sign if p <= LEVEL else 0
+
+
 def fewest_rounds(level=LEVEL):
-    """The fewest rounds that can settle a pair."""
-    return next(rounds for rounds in count(1) if chances_of_ranks(rounds)[0] <= level)
+    """The fewest rounds that can settle a pair: all have the same sign, which has a p-value of 2 / 2^rounds."""
+    return math.ceil(1 - math.log2(level))
 
 
 def family(claims):
-    """The orders of claims that are made together: the chance that any of them is false is at most LEVEL. (Holm, "A simple
+    """The settled() signs of claims that are made together: the chance that any of them is false is at most LEVEL. (Holm, "A simple
     sequentially rejective multiple test procedure", 1979)"""
-    orders = [0] * len(claims)
+    found = [0] * len(claims)
     for rank, i in enumerate(sorted(range(len(claims)), key=lambda i: claims[i][1])):
         sign, p = claims[i]
         if p > LEVEL / (len(claims) - rank):
             break
-        orders[i] = sign
-    return orders
-
-
-def middle_of(figures):
-    """The interval that leaves out equally many of the figures at both ends, CONFIDENCE within."""
-    ordered = sorted(figures)
-    outside = int(len(ordered) * (1 - CONFIDENCE) / 2)
-    return ordered[outside], ordered[-1 - outside]
+        found[i] = sign
+    return found
 
 
 def median_ratio(before, after, are_rounds):
@@ -140,11 +113,9 @@ def median_ratio(before, after, are_rounds):
 def bootstrap(*lists):
     """The interval of the median of the first list, or of its ratio to the second one's: the same each time."""
     generator = random.Random(1)
-    return middle_of([ratio_of([median(generator.choices(values, k=len(values))) for values in lists]) for _ in range(RESAMPLES)])
-
-
-def ratio_of(medians):
-    return medians[0] / medians[1] if medians[1:] else medians[0]
+    found = sorted(reduce(truediv, [median(generator.choices(values, k=len(values))) for values in lists]) for _ in range(RESAMPLES))
+    outside = int(RESAMPLES * (1 - CONFIDENCE) / 2)  # at each end
+    return found[outside], found[-1 - outside]
 
 
 def interval(values):

@@ -1,7 +1,7 @@
 """The findings of `scripts/python_peers`, in sentences."""
 from bench_rows import Row, records, source_of
 from program import parsed
-from tables import by_order, outcome, short
+from tables import outcome, short
 
 OURS, PEERS = "edgewise", ("vtk", "moderngl")
 JOBS = {"draw": "a draw into new arrays", "redraw": "a draw into reused arrays", "load": "load and draw"}
@@ -17,7 +17,7 @@ def against(peer, data):
     """How much faster ours is, and how the peer's pictures differ from ours."""
     pictures = data["pictures"]
     jobs = [job for job in JOBS if all(job in picture["ms"][OURS]["2"] for picture in pictures)]  # older files have no "redraw"
-    faster = [f"{JOBS[job]} is {outcome(by_order([(timed(of, OURS, job), timed(of, peer, job)) for of in pictures]))}" for job in jobs]
+    faster = [f"{JOBS[job]} is {outcome([(timed(of, OURS, job), timed(of, peer, job)) for of in pictures])}" for job in jobs]
     covered = sum(picture["covered"] for picture in pictures)
     differ, holes = (sum(picture["peers"][peer][key] for picture in pictures) for key in ("differ", "holes"))
     return (f"- Against {data['versions'][peer]}, {'; '.join(faster)}. "

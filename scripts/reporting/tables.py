@@ -1,4 +1,6 @@
 """Figures, comparisons and tables as text: Markdown for the READMEs, plain text for the terminal."""
+from bisect import bisect
+
 from bench_rows import gained, order
 
 # Of each SIMD target: its name in sentences, and the width of its vectors in bits.
@@ -22,15 +24,9 @@ def number(value, digits=3):
     return f"{float(f'{value:.{digits}g}'):,.10g}"
 
 
-def percent(share, digits=2):
-    return f"{number(100 * share, digits)} %"
-
-
 def milliseconds(row):
-    if row is None:
-        return "–"
-    ms = row.median_ms
-    return f"{ms:.3f}" if ms < 1 else f"{ms:.2f}" if ms < 10 else f"{ms:.1f}" if ms < 100 else f"{ms:,.0f}"
+    """With three digits, "–" for no row."""
+    return f"{row.median_ms:,.{3 - bisect((1, 10, 100), row.median_ms)}f}" if row else "–"
 
 
 def kernels(target):
@@ -49,49 +45,36 @@ def about(ratio):
 
 
 def spread(ratios):
-    ends = list(dict.fromkeys(map(about, (min(ratios), max(ratios)))))
-    return " to ".join(ends)
+    return " to ".join(dict.fromkeys(map(about, (min(ratios), max(ratios)))))
 
 
-def by_order(compared):
-    """{order(): speed-ups} of pairs of rows, ours first."""
-    found = {-1: [], 1: [], 0: []}
-    for ours, other in compared:
-        found[order(ours, other)].append(gained(other, ours))
-    return found
-
-
-def outcome(found):
-    """"1.2× to 2.3× faster in 8, not settled in 6 of 14 scenes"; `found` as of by_order()."""
-    said = [f"{spread(found[-1])} faster in {len(found[-1])}"] if found[-1] else []
-    said += [f"{spread([1 / ratio for ratio in found[1]])} slower in {len(found[1])}"] if found[1] else []
-    said += [f"not settled in {len(found[0])}"] if found[0] else []
-    scenes = sum(map(len, found.values()))
-    return f"{', '.join(said)} of {scenes} {'scene' if scenes == 1 else 'scenes'}"
-
-
-def speed_up(ratio):
-    """A speed-up in a table, "2.6× slower" if below 1."""
-    return about(ratio) if ratio >= 1 else f"{about(1 / ratio)} slower"
+def outcome(pairs):
+    """"1.2× to 2.3× faster in 8, not settled in 6 of 14 scenes", of pairs of rows, ours first."""
+    orders = [order(*pair) for pair in pairs]
+    faster, slower = ([gained(other, ours) for (ours, other), found in zip(pairs, orders) if found == sign] for sign in (-1, 1))
+    said = [f"{spread(faster)} faster in {len(faster)}"] if faster else []
+    said += [f"{spread([1 / ratio for ratio in slower])} slower in {len(slower)}"] if slower else []
+    said += [f"not settled in {orders.count(0)}"] if 0 in orders else []
+    return f"{', '.join(said)} of {len(pairs)} {'scene' if len(pairs) == 1 else 'scenes'}"
 
 
 def gain(before, after):
     """The speed-up from one row to another, and whether it is settled."""
-    return speed_up(gained(before, after)) + ("" if order(before, after) else " (not settled)")
+    ratio = gained(before, after)
+    return (about(ratio) if ratio >= 1 else f"{about(1 / ratio)} slower") + ("" if order(before, after) else " (not settled)")
 
 
-def markdown(header, lines, alignment=None):
-    text = ["| " + " | ".join(header) + " |", alignment or "|---|" + "--:|" * (len(header) - 2) + "---|"]
-    text += ["| " + " | ".join(line) + " |" for line in lines]
-    return "\n".join(text)
+def markdown(header, lines, alignment):
+    first, *rest = (f"| {' | '.join(line)} |" for line in (header, *lines))
+    return "\n".join([first, alignment, *rest])
 
 
 def plain(header, lines):
-    widths = [max(len(line[i]) for line in [header, *lines]) for i in range(len(header))]
-    last = len(header) - 1
+    """Columns between spaces: the first and the last to the left, figures to the right."""
+    def aligned(column, align):
+        width = max(map(len, column))
+        return [align(cell, width) for cell in column]
 
-    def aligned(line):
-        return "  ".join(cell.ljust(w) if i in (0, last) else cell.rjust(w)
-                         for i, (cell, w) in enumerate(zip(line, widths))).rstrip()
-
-    return "\n".join(map(aligned, [header, *lines]))
+    first, *figures, last = zip(header, *lines)
+    columns = [aligned(first, str.ljust), *(aligned(column, str.rjust) for column in figures), last]
+    return "\n".join(map("  ".join, zip(*columns)))
