@@ -3,7 +3,6 @@ import json
 import unittest
 
 from support import FolderTest
-from accuracy_rows import parse_accuracy
 from bench_rows import Bench, parse_name
 from bench_tables import peer_lines, speed_table
 from facts_tables import pipelines_table
@@ -23,19 +22,6 @@ def bench(times_ms, **context):
 
 
 class TablesTest(unittest.TestCase):
-    def test_methods_have_the_times_of_their_rows_on_scenes_of_the_same_size(self):
-        score = {"errors_per_million": 0.0}
-        data = {"methods": [{"family": "facing", "name": name, "source": ""} for name in ("m", "naive", "untimed")],
-                "scenes": [{"name": "s", "family": "facing", "covered": 500, "triangles": 20, "kind": "meshes",
-                            "methods": [{"name": name, "source": score} for name in ("m", "naive", "untimed")]}]}
-        timed = bench({"lab/s/family:facing/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:facing/method:m/simd:scalar/threads:2": 3.0,
-                       "lab/s/family:facing/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:facing/method:naive/simd:scalar/threads:1": 4.0,
-                       "lab/s/family:facing/method:untimed/simd:scalar/threads:1": 1.0})
-        for name, row in timed.rows.items():
-            row.counters["triangles"] = 20.0 if "untimed" not in name else 19.0
-        found = [{form: row.median_ms for form, row in of.forms.items()} for of in parse_accuracy(data, timed).scenes[0].measured]
-        self.assertEqual(found, [{"scalar": 4.0, "simd": 2.0}, {"scalar": 4.0}, {}])
-
     def test_a_gpu_has_one_row_a_scene(self):
         told = bench({"tiled+frontend/a/threads:2": 2.0, "tiled+frontend/a/threads:1": 4.0, "gpu+frontend/a/threads:1": 1.0}, peers="gpu", gpu="a GPU")
         self.assertIn("4.0× slower in 1 of 1 scene on 1 thread; 2.0× slower in 1 of 1 scene on 2 threads", peer_lines(told))
