@@ -14,23 +14,18 @@ TRIED = {
     "riscv64": "QEMU, the library alone, scalar code; tests of the contract and of floating-point states only",
     "wasm32": "Node, the library alone, scalar code, compiled with and without SIMD128",
 }
-HEADER = ["platform", "tried by", "hashes compared, none differs", "tests of the library", "facts of small scenes, a file of each kind"]
 # The findings of each of the last columns, with their number.
 FOUND = (re.compile(r"^(\d+) frames .*no hash differs"), re.compile(r"PASSED\s*\] (\d+) tests"), re.compile(r"^(\d+) bytes .*are those of x86-64"))
-
-
-def sum_of(numbers):
-    return " + ".join(f"{numbers.count(n)} × {n}" if numbers.count(n) > 1 else n for n in dict.fromkeys(numbers)) or "–"
 
 
 def platforms_table(path):
     found = parsed(path, lambda data: {name: data[name] for name in TRIED}, "scripts/test --everywhere")
     lines = []
     for name, tried in TRIED.items():
-        hashes, tests, facts = ([f"{int(match[1]):,}" for text in found[name]["found"] if (match := pattern.search(text))] for pattern in FOUND)
-        lines.append([name.replace("x86_64", "x86-64") + ("" if found[name]["result"] == "passed" else ": **failed**"), tried, sum_of(hashes),
-                      sum_of(tests), "the same as on x86-64" if facts else "–"])
-    return HEADER, lines
+        hashes, tests, facts = (sum(int(match[1]) for text in found[name]["found"] if (match := pattern.search(text))) for pattern in FOUND)
+        lines.append([name.replace("_", "-") + ("" if found[name]["result"] == "passed" else ": **failed**"), tried,
+                      *(f"{count:,}" if count else "–" for count in (hashes, tests)), "the same as on x86-64" if facts else "–"])
+    return ["platform", "tried by", "hashes compared, none differs", "tests of the library", "facts of small scenes, a file of each kind"], lines
 
 
 def main():

@@ -4,14 +4,15 @@ import math
 from matplotlib.ticker import LogLocator, NullLocator
 
 from bench_rows import order
-from choice import OURS, PEERS, TITLES
-from plot_labels import Label, label_points
-from plot_style import BAND, FAINT, GREEN, INK, WHISKER, foot_in, head_in, headline, plt, save
+from choice import OURS, TITLES
+from plot_labels import place_labels
+from plot_style import BAND, FAINT, GREEN, INK, chart, plt, save
 from tables import kernels, short
 
-WIDTH_IN, PANEL_IN, GAP_IN = 6.4, 2.3, 0.75  # narrow, so that a phone shows it in readable type
+WIDTH_IN, PANEL_IN = 6.4, 3.2  # narrow, so that a phone shows it in readable type
 FIRST = "tiled_8"  # of ours, whose label has its name
-HOLE, PLAIN, FLOATS = "#cf222e", "#57606a", "#d8dee4"
+HOLE, FLOATS = "#cf222e", "#d8dee4"
+WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt", "zorder": 1.8}  # an interval, as a light bar
 
 
 def choice_title(panels):
@@ -24,39 +25,23 @@ def choice_title(panels):
     return f"Of these without holes, tiled is fastest in {sum(map(won, panels))} of {len(panels)} scenes"
 
 
-def kind_of(point):
-    """What a label's colour shows: whether a hole shows, and whether it is ours."""
-    return bool(point.wrong.holes), point.method.startswith(OURS)
-
-
-def labels_of(axes, points):
-    """Points that lie on one another share a label."""
-    groups = []
-    for point in points:
-        x, y = axes.transLimits.transform(axes.transScale.transform((point.wrong.mean, point.row.median_ms)))  # in parts of the panel
-        near = [group for at_x, at_y, group in groups if abs(at_x - x) < 0.02 and abs(at_y - y) < 0.03 and kind_of(group[0]) == kind_of(point)]
-        near[0].append(point) if near else groups.append((x, y, [point]))
-    for _, _, group in groups:
-        (hole, ours), methods = kind_of(group[0]), [point.method for point in group]
-        bits = ", ".join(method.removeprefix(OURS) for method in methods)
-        title = "\n".join(TITLES[method] for method in methods) if not ours else f"tiled, {bits} bits" if FIRST in methods else bits
-        yield Label(group[0].wrong.mean, group[0].row.median_ms, title, colour=HOLE if hole else GREEN if ours else INK, bold=ours)
-
-
 def draw_points(axes, points):
-    """Returns the lines that labels keep off."""
+    """Returns their labels, which lie on the points."""
     ours = [(point.wrong.mean, point.row.median_ms) for point in points if point.method.startswith(OURS)]
-    axes.plot(*zip(*ours), color=GREEN, linewidth=1.5, zorder=2) if ours else None
-    lines = [ours]
+    axes.plot([x for x, _ in ours], [y for _, y in ours], color=GREEN, linewidth=1.5)
+    labels = []
     for point in points:
-        hole, is_ours = kind_of(point)
-        colour = HOLE if hole else GREEN if is_ours else PLAIN
-        x, y, ends = point.wrong.mean, point.row.median_ms, (point.wrong.least, point.wrong.most)
-        axes.plot(ends, [y, y], color=colour, **WHISKER, zorder=1.8)
-        axes.plot([x, x], point.row.interval_ms, color=colour, **WHISKER, zorder=1.8)
-        axes.plot([x], [y], marker="^" if is_ours else "o", color=colour, markersize=7, markeredgecolor="white", markeredgewidth=0.8, zorder=3)
-        lines.append([(end, y) for end in ends])
-    return lines
+        is_ours = point.method.startswith(OURS)
+        colour = HOLE if point.wrong.holes else GREEN if is_ours else INK
+        x, y = point.wrong.mean, point.row.median_ms
+        axes.plot([point.wrong.least, point.wrong.most], [y, y], color=colour, **WHISKER)
+        axes.plot([x, x], point.row.interval_ms, color=colour, **WHISKER)
+        axes.plot(x, y, marker="^" if is_ours else "o", color=colour, markersize=7, markeredgecolor="white", markeredgewidth=0.8, zorder=3)
+        name = point.method.removeprefix(OURS) if is_ours and point.method != FIRST else TITLES[point.method]
+        labels.append(axes.annotate(name, (x, y), (0, 0), textcoords="offset pixels", color=colour, fontsize=9.5,
+                                    fontweight="bold" if is_ours else "normal", zorder=5, in_layout=False,
+                                    arrowprops={"arrowstyle": "-", "color": FAINT, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 5}))
+    return labels
 
 
 def draw_panel(axes, panel, points):
@@ -68,41 +53,34 @@ def draw_panel(axes, panel, points):
     axes.axvspan(-least, 0.4 * least, color=BAND, zorder=0, linewidth=0)
     if panel.floats:
         axes.axvspan(-least, panel.floats.mean, color=FLOATS, zorder=0.5, linewidth=0)
-    edges = [end for point in points for end in point.row.interval_ms]
     axes.set_yscale("log")
-    axes.set_ylim(min(edges) / 1.35, max(edges) * 1.5)
-    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5, 7) if max(edges) < 6 * min(edges) else (1, 2, 5)))
+    axes.margins(y=0.18)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5, 7)))
     axes.yaxis.set_major_formatter("{x:g}")
     axes.yaxis.set_minor_locator(NullLocator())
     kind, _, rest = panel.summary.partition(": ")
     axes.set_title(rest, fontsize=9, color=FAINT, pad=4)
     axes.annotate(kind, (0, 1), xytext=(0, 17), xycoords="axes fraction", textcoords="offset points", fontsize=10.5, fontweight="bold")
-    label_points(axes, list(labels_of(axes, points)), draw_points(axes, points))
+    return draw_points(axes, points)
 
 
 def choice(accuracy, bench, folder, caption):
-    found = [(panel, points) for panel in (accuracy.choices if accuracy else ()) if (points := panel.points(bench))]
+    found = [(panel, points) for panel in accuracy.choices if (points := panel.points(bench))] if accuracy else []
     if not found:
         return None
-    subtitle = (f"Wrong pixels of a picture, mean and range of {found[0][0].frames} frames, against its time, from vertices to picture, on one thread. "
-                "Best is bottom left. Red: a hole shows in a frame. Dark grey: what projecting in floats alone gets wrong. Light grey: 0.")
-    code = kernels(bench.context.get("simd_target"))
-    peers = ("; peers are timed with their own projection and judged with ours"
-             if any(point.method in PEERS for _, points in found for point in points) else "")
-    notes = (f"Wrong: another triangle than in the exact picture of the scene's vertices. A hole: inside a surface, something else shows. Ours and the "
-             f"laboratory's methods use {code} and our front end{peers}.\n{caption}")
+    subtitle = (f"Wrong pixels of a picture, mean and range of {found[0][0].frames} frames, against its time, from vertices to picture, on one "
+                "thread. Best is bottom left. Red: a hole shows in a frame. Dark grey: what projecting in floats alone gets wrong. Light grey: 0.")
+    notes = ("Wrong: another triangle than in the exact picture of the scene's vertices. A hole: inside a surface, something else shows. llvmpipe "
+             "and SwiftShader are timed with their own projection and judged with ours. All others use our front end and "
+             f"{kernels(bench.context.get('simd_target'))}.\n{caption}")
     rows = (len(found) + 1) // 2
-    above, below = head_in(subtitle, WIDTH_IN), foot_in(notes, WIDTH_IN)
-    height = above + below + rows * (PANEL_IN + GAP_IN)
-    figure, grid = plt.subplots(rows, 2, squeeze=False, figsize=(WIDTH_IN, height))
-    headline(figure, choice_title([points for _, points in found]), subtitle)
-    figure.subplots_adjust(left=0.09, right=0.99, bottom=below / height, top=1 - (above + 0.45) / height, wspace=0.17, hspace=GAP_IN / PANEL_IN)
-    for axes, (panel, points) in zip(grid.flat, found):
-        draw_panel(axes, panel, points)
-    for axes in grid.flat[len(found):]:
-        axes.set_visible(False)
-    for axes in grid[-1]:
-        axes.set_xlabel("wrong pixels")
-    for axes in grid[:, 0]:
-        axes.set_ylabel("ms")
-    return save(figure, folder, "choice", notes)
+    figure, grid = chart(choice_title([points for _, points in found]), subtitle, notes, rows * PANEL_IN, (rows, 2), WIDTH_IN)
+    labels = [draw_panel(axes, *panel) for axes, panel in zip(grid.flat, found)]
+    plt.setp(grid.flat[len(found):], visible=False)
+    plt.setp(grid[-1], xlabel="wrong pixels")
+    plt.setp(grid[:, 0], ylabel="ms")
+    figure.draw_without_rendering()  # gives the axes their place
+    figure.set_layout_engine("none")
+    for texts in labels:
+        place_labels(texts)
+    return save(figure, folder, "choice")

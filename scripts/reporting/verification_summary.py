@@ -3,90 +3,70 @@ from pathlib import Path
 
 from bench_rows import records, source_of
 from program import Parser, main_guard, read_json
-from tables import enumerated, kernels, markdown, plain, short
+from tables import enumerated, kernels, plain, short
+
+RECORDS = ("verify", "tests", "prove", "mutate", "fuzz", "random")
 
 
-def none_or(count, what, plural=None):
-    """"no difference", or their number in bold."""
-    return f"no {what}" if count == 0 else f"**{how_many(count, what, plural)}**"
-
-
-def how_many(count, what, plural=None):
-    return f"{count:,} {what if count == 1 else plural or what + 's'}"
+def none_or(count, what, plural):
+    """"no failure", or their number in bold."""
+    return f"**{count:,} {what if count == 1 else plural}**" if count else f"no {what}"
 
 
 def all_of(done, all_there, what):
     return f"all {what}" if done == all_there else f"**{done:,} of {all_there:,} {what}**"
 
 
-def prove_lines(data):
-    claims = data["claims"]
-    yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, each with a deliberately false variant",
-           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['premises_hold'], claims, 'premises satisfiable')}; "
-           f"{all_of(data['refuted'], claims, 'false variants refuted')}"]
-
-
-def mutate_lines(data):
-    yield ["Mutation testing", how_many(data["mutations"], "mutant") + ", one at a time",
-           all_of(data["caught"], data["mutations"], "caught")]
-
-
-def test_lines(data):
-    tests, skipped, cases, comparisons = (data["all"][key] for key in ("tests", "skipped", "cases", "comparisons"))
-    yield ["Tests at full size", f"{how_many(tests, 'test')}{f', {skipped:,} of them skipped' if skipped else ''}; "
-           f"{short(cases)} random or exhaustive cases, {short(comparisons)} comparisons",
-           none_or(data["all"]["failed"], "failure")]
-    if runs := data["sanitized"]:
-        yield [f"Again with the sanitizers ({', '.join(run['name'] for run in runs)})",
-               how_many(sum(run["tests"] for run in runs), "test"), none_or(sum(run["failed"] for run in runs), "failure")]
-
-
-def fuzz_lines(data):
-    targets = data["targets"]
-    yield ["Fuzzing", f"{how_many(len(targets), 'target')}, {short(sum(target['executions'] for target in targets))} executions in "
-           f"{data['cpu_hours']:.1f} CPU hours",
-           none_or(sum(len(target["crashes"]) for target in targets), "crash", "crashes")]
-
-
-def random_lines(data):
-    targets = enumerated([kernels(target) for target in data["simd_targets"]])
-    yield ["Random pictures", f"{short(data['cases'])} pictures in {targets}, {short(data['pixels'])} pixels compared",
-           none_or(data["differences"], "difference")]
-
-
 def compared(verify):
     """The extent of `edgewise verify`, and how many pixels differ."""
     scenes = verify["scenes"]
-    frames = sum(scene["configurations"] for scene in scenes)
     oracles = [scene.get("oracle", {}) for scene in scenes]
+    frames, small = (sum(of.get("configurations", 0) for of in judged) for judged in (scenes, oracles))
     differing = sum(of.get("differing_pixels", 0) + of.get("written_outside", 0) for of in (*scenes, *oracles))
-    return f"{frames:,} frames of {len(scenes)} scenes, and {sum(of.get('configurations', 0) for of in oracles):,} small ones with an oracle", differing
+    return f"{frames:,} frames of {len(scenes)} scenes, and {small:,} small ones with an oracle", differing
 
 
-def verify_lines(data):
-    extent, differing = compared(data)
-    yield ["Backends compared, bit for bit", extent, none_or(differing, "pixel differs", "pixels differ")]
-
-
-LINES = {"verify": verify_lines, "tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "random": random_lines}
+def lines_of(record, data):
+    """Each a method, its extent and its finding."""
+    match record:
+        case "verify":
+            extent, differing = compared(data)
+            yield "Backends compared, bit for bit", extent, none_or(differing, "pixel differs", "pixels differ")
+        case "tests":
+            tests, skipped, cases, comparisons, failed = (data["all"][key] for key in ("tests", "skipped", "cases", "comparisons", "failed"))
+            yield ("Tests at full size", f"{tests:,} tests{f', {skipped:,} of them skipped' if skipped else ''}; {short(cases)} random or "
+                   f"exhaustive cases, {short(comparisons)} comparisons", none_or(failed, "failure", "failures"))
+            if runs := data["sanitized"]:
+                yield (f"Again with the sanitizers ({', '.join(run['name'] for run in runs)})", f"{sum(run['tests'] for run in runs):,} tests",
+                       none_or(sum(run["failed"] for run in runs), "failure", "failures"))
+        case "prove":
+            found = {"proven": "proven", "premises_hold": "premises satisfiable", "refuted": "false variants refuted"}
+            yield ("Proofs, for all inputs", f"{data['claims']:,} claims, each with a deliberately false variant",
+                   "; ".join(all_of(data[key], data["claims"], what) for key, what in found.items()))
+        case "mutate":
+            yield "Mutation testing", f"{data['mutations']:,} mutants, one at a time", all_of(data["caught"], data["mutations"], "caught")
+        case "fuzz":
+            targets = data["targets"]
+            executions, crashes = sum(of["executions"] for of in targets), sum(len(of["crashes"]) for of in targets)
+            yield ("Fuzzing", f"{len(targets)} targets, {short(executions)} executions in {data['cpu_hours']:.1f} CPU hours",
+                   none_or(crashes, "crash", "crashes"))
+        case "random":
+            targets = enumerated([kernels(target) for target in data["simd_targets"]])
+            yield ("Random pictures", f"{short(data['cases'])} pictures in {targets}, {short(data['pixels'])} pixels compared",
+                   none_or(data["differences"], "difference", "differences"))
 
 
 def verification_table(folder):
     """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
     lines = []
-    for name, lines_of in LINES.items():
-        paths = records(folder, name)
+    for record in RECORDS:
+        paths = records(folder, record)
         # Of random pictures all: each machine runs its own SIMD targets.
-        for path in paths if name == "random" else paths[:1]:
+        for path in paths if record == "random" else paths[:1]:
             data = read_json(path)
             where = f" ({source_of(path, data)})" if path.parent != folder else ""
-            lines += [[method, extent + where, found] for method, extent, found in lines_of(data)]
+            lines += [[method, extent + where, found] for method, extent, found in lines_of(record, data)]
     return ["method", "extent", "found"], lines
-
-
-def verification_markdown(folder):
-    header, lines = verification_table(folder)
-    return markdown(header, lines, "|---|---|---|") if lines else "None of this was run for these results."
 
 
 def main():

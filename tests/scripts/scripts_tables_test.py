@@ -3,7 +3,6 @@ import json
 import unittest
 
 from support import FolderTest
-from accuracy_rows import parse_accuracy
 from bench_rows import Bench, parse_name
 from bench_tables import peer_lines, speed_table
 from facts_tables import pipelines_table
@@ -22,16 +21,6 @@ def bench(times_ms, **context):
 
 
 class TablesTest(unittest.TestCase):
-    def test_methods_have_the_times_of_their_rows_on_scenes_of_the_same_size(self):
-        rows = {"m/simd:scalar/threads:1": 4.0, "m/simd:scalar/threads:2": 3.0, "m/simd:avx512/threads:1": 2.0, "resized/simd:scalar/threads:1": 1.0}
-        timed = bench({f"lab/s/family:facing/method:{row}": ms for row, ms in rows.items()})
-        timed.rows["lab/s/family:facing/method:resized/simd:scalar/threads:1"].counters["triangles"] += 1
-        data = {"methods": [{"family": "facing", "name": name, "source": ""} for name in ("m", "resized")],
-                "scenes": [{"name": "s", "family": "facing", "covered": 500, "triangles": 4, "kind": "meshes",
-                            "methods": [{"name": name, "source": {"errors_per_million": 0.0}} for name in ("m", "resized")]}]}
-        found = [{form: row.median_ms for form, row in of.forms.items()} for of in parse_accuracy(data, timed).scenes[0].measured]
-        self.assertEqual(found, [{"scalar": 4.0, "simd": 2.0}, {}])
-
     def test_a_gpu_has_one_row_a_scene(self):
         told = bench({"tiled+frontend/a/threads:2": 2.0, "tiled+frontend/a/threads:1": 4.0, "gpu+frontend/a/threads:1": 1.0}, peers="gpu")
         self.assertIn("4.0× slower in 1 of 1 scene on 1 thread; 2.0× slower in 1 of 1 scene on 2 threads", peer_lines(told))

@@ -7,74 +7,56 @@ from support import SCRIPTS, FolderTest, run
 from platforms import TRIED, platforms_table
 from verification_summary import verification_table
 
-
-def gtest_case(suite, name, inside="", result="completed", **properties):
-    noted = "".join(f'<property name="{key}" value="{value}"/>' for key, value in properties.items())
-    return f'<testcase classname="{suite}" name="{name}" result="{result}"><properties>{noted}</properties>{inside}</testcase>'
-
-
-SHARDS = [[gtest_case("Properties", "A", cases=40, comparisons=400), gtest_case("Properties", "B")],
-          [gtest_case("Properties", "C", "<failure/>", cases=2), gtest_case("Properties", "D", "<skipped/>", "skipped")]]
+SHARDS = ('''<testsuites>
+<testcase classname="P" name="A"><properties><property name="cases" value="40"/><property name="comparisons" value="400"/></properties></testcase>
+<testcase classname="P" name="B"/></testsuites>''',
+          '''<testsuites>
+<testcase classname="P" name="C"><properties><property name="cases" value="2"/></properties><failure/></testcase>
+<testcase classname="P" name="D" result="skipped"><skipped/></testcase></testsuites>''')
 CTEST = ["run"] * 3 + ["fail", "disabled"] + ["notrun"] * 2
+TOTALS = {"all": {"tests": 4, "failed": 1, "skipped": 1, "cases": 42, "comparisons": 400},
+          "sanitized": [{"name": "thread", "tests": 7, "failed": 1, "skipped": 3}]}
 
 
-def totals(tests, failed=0, skipped=0, **counted):
-    return {"tests": tests, "failed": failed, "skipped": skipped, **counted}
-
-
-TOTALS = {"all": totals(4, 1, 1, cases=42, comparisons=400), "sanitized": [{"name": "thread", **totals(7, 1, 3)}]}
-GOOD = {"tests": {"all": totals(500, cases=2_000_000, comparisons=0), "sanitized": [{"name": "address", **totals(499)}]},
-        "prove": {"claims": 9, "proven": 9, "premises_hold": 9, "refuted": 9},
-        "mutate": {"mutations": 25, "caught": 25},
-        "fuzz": {"cpu_hours": 4.0, "targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]}}
-
-
-class CollectTest(FolderTest):
+class VerificationTest(FolderTest):
     def collected(self):
         return run(sys.executable, SCRIPTS / "checks/test_results.py", self.folder, "--json")
 
-    def test_adds_up_shards_and_sanitizers(self):
+    def test_shards_and_sanitizers_of_tests_add_up(self):
         for i, shard in enumerate(SHARDS):
-            self.file(f"tests-{i}.xml", f"<testsuites>{''.join(shard)}</testsuites>")
+            self.file(f"tests-{i}.xml", shard)
         cases = "".join(f'<testcase status="{status}"><skipped message="SKIP_RETURN_CODE=77"/></testcase>' for status in CTEST)
         self.file("thread.xml", f"<testsuite>{cases}</testsuite>")
         self.file("address.xml", "")  # not run yet
         self.assertEqual(json.loads(self.collected().stdout), TOTALS)
-
-    def test_says_what_is_no_result(self):
         self.file("thread.xml", "<a/>")
         result = self.collected()
         self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
 
-
-class VerificationTest(FolderTest):
     def test_what_failed_is_bold(self):
-        def found(**results):
-            for key, data in results.items():
-                self.file(f"{key}.json", json.dumps(data))
-            return [line[2] for line in verification_table(self.folder)[1]]
-
-        self.assertEqual(found(verify={"scenes": [{"configurations": 300, "differing_pixels": 0}]}, **GOOD), [
-            "no pixel differs", "no failure", "no failure", "all proven; all premises satisfiable; all false variants refuted", "all caught", "no crash"])
         scene = {"configurations": 1200, "differing_pixels": 4, "oracle": {"configurations": 30, "written_outside": 3}}
-        self.assertEqual(found(verify={"scenes": [scene]}, tests=TOTALS, prove={"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
-                               mutate={"mutations": 25, "caught": 24},
-                               fuzz={"cpu_hours": 1.0, "targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}), [
+        for name, data in {"verify": {"scenes": [scene]}, "tests": TOTALS, "mutate": {"mutations": 25, "caught": 24},
+                           "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
+                           "fuzz": {"cpu_hours": 1.0, "targets": [{"executions": 12_345, "crashes": ["a", "b"]}]},
+                           "random": {"simd_targets": ["sse4"], "cases": 1, "pixels": 1, "differences": 2}}.items():
+            self.file(f"{name}.json", json.dumps(data))
+        self.assertEqual([found for _, _, found in verification_table(self.folder)[1]], [
             "**7 pixels differ**", "**1 failure**", "**1 failure**",
-            "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**", "**24 of 25 caught**", "**2 crashes**"])
+            "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**", "**24 of 25 caught**", "**2 crashes**",
+            "**2 differences**"])
 
 
 class PlatformsTest(FolderTest):
     def test_findings_have_their_columns_and_a_failure_is_told(self):
-        findings = {name: ("passed", ["2000 frames of 3 groups, drawn by 2 combinations: no hash differs", *["300 frames drawn: no hash differs"] * 2])
-                    for name in TRIED}
-        findings["s390x"] = ("failed", ["20 frames of 3 groups: 1 hash differs", "[  PASSED  ] 1312 tests.", "9 bytes of facts are those of x86-64"])
+        findings = {name: ("passed", ["2000 frames of 3 groups: no hash differs", "300 frames drawn: no hash differs"]) for name in TRIED}
+        findings["s390x"] = ("failed", ["20 frames: 1 hash differs", "[  PASSED  ] 1312 tests.", "9 bytes of facts are those of x86-64"])
         lines = self.file("lines", "".join(f"{name}\t{result}\t{text}\n" for name, (result, texts) in findings.items() for text in texts))
         result = run(sys.executable, SCRIPTS / "reporting/platforms.py", lines)
         table = platforms_table(self.file("platforms.json", result.stdout))[1]
         self.assertEqual([line[0] for line in table], ["x86-64", "consumer", "aarch64", "s390x: **failed**", "riscv64", "wasm32"])
-        self.assertEqual([line[2:] for line in table], [["2,000 + 2 × 300", "–", "–"]] * 3 +
-                         [["–", "1,312", "the same as on x86-64"]] + [["2,000 + 2 × 300", "–", "–"]] * 2)
+        expected = [["2,300", "–", "–"]] * 6
+        expected[3] = ["–", "1,312", "the same as on x86-64"]
+        self.assertEqual([line[2:] for line in table], expected)
 
 
 class ShardsTest(FolderTest):
@@ -82,22 +64,15 @@ class ShardsTest(FolderTest):
         paths = [self.file(f"{i}.json", json.dumps(line)) for i, line in enumerate(lines)]
         return run(sys.executable, SCRIPTS / "reporting/shards.py", *paths)
 
-    def line(self, shard, targets=("scalar", "sse4"), **others):
-        counts = dict.fromkeys(("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists"), 2)
-        return {"seed": 7, "shard": shard, "commit": "abc", "cpu_model": "X", "simd_targets": targets, "backends": ["naive"],
-                "seconds": 1.5, "differences": 1, "findings": [shard], **counts, **others}
-
-    def test_shards_add_up(self):
-        result = self.added(self.line("0/3"), self.line("2/3", targets=("scalar", "avx2")))
-        total = json.loads(result.stdout)
-        self.assertEqual(total, {**self.line(["0/3", "2/3"]), "cpu_model": ["X", "X"], "simd_targets": ["scalar", "sse4", "avx2"], "seconds": 3.0,
-                                 "differences": 2, "findings": ["0/3", "2/3"],
-                                 **dict.fromkeys(("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists"), 4)})
-
-    def test_shards_that_share_pictures_or_come_from_other_programs_are_refused(self):
-        first = self.line("0/3")
-        for other in (self.line("0/3"), self.line("1/4"), self.line("1/3", seed=8), self.line("1/3", commit="def"), {"cases": 1}):
-            result = self.added(first, other)
+    def test_only_other_shards_of_the_same_run_add_up(self):
+        counts = dict.fromkeys(("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists", "differences", "seconds"), 2)
+        first = {"seed": 7, "shard": "0/3", "commit": "abc", "cpu_model": "X", "simd_targets": ["scalar", "sse4"], "findings": ["a"], **counts}
+        result = self.added(first, {**first, "shard": "2/3", "simd_targets": ["scalar", "avx2"], "findings": ["b"]})
+        self.assertEqual(json.loads(result.stdout), {
+            "seed": 7, "shard": ["0/3", "2/3"], "commit": "abc", "cpu_model": ["X", "X"], "simd_targets": ["scalar", "sse4", "avx2"],
+            "findings": ["a", "b"], **dict.fromkeys(counts, 4)})
+        for others in ({}, {"shard": "1/4"}, {"shard": "1/3", "seed": 8}, {"shard": "1/3", "commit": "def"}, {"shard": None}):
+            result = self.added(first, {**first, **others})
             self.assertEqual((result.returncode, result.stdout, len(result.stderr.splitlines())), (2, "", 1), result.stderr)
 
 
