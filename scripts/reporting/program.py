@@ -1,8 +1,6 @@
 """What all scripts share: bad input, command lines, JSON files, and the project's READMEs."""
 import argparse
-import difflib
 import json
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -26,23 +24,10 @@ def main_guard(main):
 
 
 class Parser(argparse.ArgumentParser):
-    """Reports a wrong command line in one line with exit status 2, and suggests the nearest option."""
-
-    def __init__(self, **settings):
-        super().__init__(allow_abbrev=False, **settings)
-
-    def parse_args(self, args=None, namespace=None):
-        args = sys.argv[1:] if args is None else args
-        for arg in args:
-            name = arg.partition("=")[0]
-            if re.match(r"--?[A-Za-z]", name) and name not in self._option_string_actions:
-                near = difflib.get_close_matches(name, self._option_string_actions, 1)
-                self.error(f"unknown argument '{arg}'" + (f"; did you mean {near[0]}?" if near else ""))
-        return super().parse_args(args, namespace)
+    """For a main() that main_guard() runs: a wrong command line is bad input."""
 
     def error(self, message):
-        print(f"{self.prog}: {message}{'' if message.endswith('?') else ';'} --help lists all", file=sys.stderr)
-        sys.exit(2)
+        raise BadInput(f"{message.replace('unrecognized arguments:', 'unknown argument')}; --help lists all")
 
 
 def positive(kind):
@@ -75,23 +60,19 @@ def parsed(path, parse, writer):
         raise BadInput(f"{path}: not what '{writer}' writes: {type(error).__name__} {error}") from None
 
 
-def replaced(target, write):
-    """`write` makes another file, which then replaces `target` in one step."""
-    partial = target.with_name(f".{target.name}.partial")
+def write_bytes(path, content):
+    """The new file replaces the old one in one step."""
+    partial = path.with_name(f".{path.name}.partial")
     try:
-        write(partial)
-        partial.replace(target)
+        partial.write_bytes(content)
+        partial.replace(path)
     except OSError as error:
         partial.unlink(missing_ok=True)
-        raise BadInput(f"cannot write {target}: {error.filename}: {error.strerror}") from None
-
-
-def write_text(path, text):
-    replaced(path, lambda partial: partial.write_text(text, encoding="utf-8"))
+        raise BadInput(f"cannot write {path}: {error.filename}: {error.strerror}") from None
 
 
 def write_json(path, data):
-    write_text(path, json.dumps(data, indent=1) + "\n")
+    write_bytes(path, (json.dumps(data, indent=1) + "\n").encode())
 
 
 def git(*arguments):

@@ -45,6 +45,12 @@ class FolderTest(unittest.TestCase):
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.environment = {"PATH": f"{self.folder}/tools:{os.environ['PATH']}"}
 
+    def fails(self, result, *words):
+        """The script ended as scripts do on bad input."""
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1), result.stdout + result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
     def file(self, name, text):
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
