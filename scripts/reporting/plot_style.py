@@ -5,7 +5,7 @@ import textwrap
 
 import matplotlib.pyplot as plt
 
-from program import write_text
+from program import write_bytes
 
 # Okabe and Ito, "Color Universal Design", 2008.
 BLUE, ORANGE, GREEN = "#0072B2", "#E69F00", "#009E73"
@@ -52,5 +52,5 @@ def save(figure, folder, name):
     svg = io.StringIO()
     figure.savefig(svg, format="svg", metadata={"Date": None})
     plt.close(figure)
-    write_text(folder / f"{name}.svg", smaller(svg.getvalue()))
+    write_bytes(folder / f"{name}.svg", smaller(svg.getvalue()).encode())
     return name
