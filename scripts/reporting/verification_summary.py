@@ -1,7 +1,7 @@
 """The verification summary: one table of the methods that `scripts/test --full` ran, their extent and their findings."""
 from pathlib import Path
 
-from bench_rows import records, source_of
+from bench_rows import records
 from program import Parser, main_guard, read_json
 from tables import enumerated, kernels, plain, short
 
@@ -20,10 +20,9 @@ def all_of(done, all_there, what):
 def compared(verify):
     """The extent of `edgewise verify`, and how many pixels differ."""
     scenes = verify["scenes"]
-    oracles = [scene.get("oracle", {}) for scene in scenes]
-    frames, small = (sum(of.get("configurations", 0) for of in judged) for judged in (scenes, oracles))
-    differing = sum(of.get("differing_pixels", 0) + of.get("written_outside", 0) for of in (*scenes, *oracles))
-    return f"{frames:,} frames of {len(scenes)} scenes, and {small:,} small ones with an oracle", differing
+    frames = sum(scene["configurations"] for scene in scenes)
+    differing = sum(of.get("differing_pixels", 0) + of.get("written_outside", 0) for scene in scenes for of in (scene, scene.get("oracle", {})))
+    return f"{frames:,} frames of {len(scenes)} scenes, and small ones with an oracle", differing
 
 
 def lines_of(record, data):
@@ -33,9 +32,9 @@ def lines_of(record, data):
             extent, differing = compared(data)
             yield "Backends compared, bit for bit", extent, none_or(differing, "pixel differs", "pixels differ")
         case "tests":
-            tests, skipped, cases, comparisons, failed = (data["all"][key] for key in ("tests", "skipped", "cases", "comparisons", "failed"))
-            yield ("Tests at full size", f"{tests:,} tests{f', {skipped:,} of them skipped' if skipped else ''}; {short(cases)} random or "
-                   f"exhaustive cases, {short(comparisons)} comparisons", none_or(failed, "failure", "failures"))
+            found = data["all"]
+            yield ("Tests at full size", f"{found['tests']:,} tests, {short(found['cases'])} random or exhaustive cases",
+                   none_or(found["failed"], "failure", "failures") + f"; {found['skipped']:,} skipped" * bool(found["skipped"]))
             if runs := data["sanitized"]:
                 yield (f"Again with the sanitizers ({', '.join(run['name'] for run in runs)})", f"{sum(run['tests'] for run in runs):,} tests",
                        none_or(sum(run["failed"] for run in runs), "failure", "failures"))
@@ -46,9 +45,8 @@ def lines_of(record, data):
         case "mutate":
             yield "Mutation testing", f"{data['mutations']:,} mutants, one at a time", all_of(data["caught"], data["mutations"], "caught")
         case "fuzz":
-            targets = data["targets"]
-            executions, crashes = sum(of["executions"] for of in targets), sum(len(of["crashes"]) for of in targets)
-            yield ("Fuzzing", f"{len(targets)} targets, {short(executions)} executions in {data['cpu_hours']:.1f} CPU hours",
+            executions, crashes = (sum(counts) for counts in zip(*((of["executions"], len(of["crashes"])) for of in data["targets"])))
+            yield ("Fuzzing", f"{short(executions)} executions in {data['cpu_hours']:.1f} CPU hours",
                    none_or(crashes, "crash", "crashes"))
         case "random":
             targets = enumerated([kernels(target) for target in data["simd_targets"]])
@@ -56,17 +54,24 @@ def lines_of(record, data):
                    none_or(data["differences"], "difference", "differences"))
 
 
+def together(runs):
+    """Several machines' random pictures as one record: each machine runs its own SIMD targets."""
+    return {"simd_targets": list(dict.fromkeys(target for run in runs for target in run["simd_targets"])),
+            **{key: sum(run[key] for run in runs) for key in ("cases", "pixels", "differences")}}
+
+
 def verification_table(folder):
     """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
-    lines = []
-    for record in RECORDS:
-        paths = records(folder, record)
-        # Of random pictures all: each machine runs its own SIMD targets.
-        for path in paths if record == "random" else paths[:1]:
-            data = read_json(path)
-            where = f" ({source_of(path, data)})" if path.parent != folder else ""
-            lines += [[method, extent + where, found] for method, extent, found in lines_of(record, data)]
-    return ["method", "extent", "found"], lines
+    found = {record: [read_json(path) for path in records(folder, record)] for record in RECORDS}
+    return ["method", "extent", "found"], [[*line] for record, runs in found.items() if runs
+                                           for line in lines_of(record, together(runs) if record == "random" else runs[0])]
+
+
+def elsewhere(folder):
+    """A sentence that names the commits of records of other machines."""
+    paths = [path for record in RECORDS for path in records(folder, record)[:None if record == "random" else 1] if path.parent != folder]
+    told = [f"{path.stem} at {read_json(path).get('commit')}" for path in paths]
+    return f"Of other commits: {enumerated(told)}." if told else ""
 
 
 def main():

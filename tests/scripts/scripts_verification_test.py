@@ -41,7 +41,7 @@ class VerificationTest(FolderTest):
                            "random": {"simd_targets": ["sse4"], "cases": 1, "pixels": 1, "differences": 2}}.items():
             self.file(f"{name}.json", json.dumps(data))
         self.assertEqual([found for _, _, found in verification_table(self.folder)[1]], [
-            "**7 pixels differ**", "**1 failure**", "**1 failure**",
+            "**7 pixels differ**", "**1 failure**; 1 skipped", "**1 failure**",
             "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**", "**24 of 25 caught**", "**2 crashes**",
             "**2 differences**"])
 
