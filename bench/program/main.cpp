@@ -128,7 +128,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (is_known(row)) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
-    // The caches hold another row's data. A longer draw needs no warm-up.
+    // The caches hold another row's data. A draw over kTooSlowToRepeat_s needs no warm-up.
     if (stage.renew_memory(row) || row.once_s < kTooSlowToRepeat_s) stage.work(row);
     for (auto _ : state) {
       const double frame_s = stage.timed_work_s(row);

@@ -160,6 +160,7 @@ std::vector<Row> choice_rows(const lab::ChoiceScene& scene) {
       lab::FrameDrawer scalar(at.scene.size);
       scalar.draw(*at.drawable, method, Payload::colour, {.target = SimdTarget::scalar});
       at.drawer->draw(*at.drawable, method, Payload::colour);
+      at.drawer->redraw(*at.drawable, method, Payload::colour);
       if (!lab::same_picture(*method.method, scalar.canvas(), at.drawer->canvas()))
         prepared.error = "draws other pixels than its scalar form";
       return [&at, method] { at.drawer->redraw(*at.drawable, method, Payload::colour); };

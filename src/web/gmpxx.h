@@ -1,7 +1,7 @@
 // Takes the place of GMP, which WebAssembly lacks, where the sign of a cross product is asked for. A
 // `long double` has 113 bits there. If coordinates are multiples of 2^-32 px below 2^12 px, their differences
 // have 45 bits, so products and the sum of two are exact. The exact depths of lab/truth/truth.h need more
-// bits; they also need the quotient, which therefore ends the program. The page never computes them.
+// bits. The page never computes them, so a quotient, which only they need, ends the program.
 #pragma once
 
 #include <compare>

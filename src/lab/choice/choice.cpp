@@ -85,6 +85,7 @@ void FrameDrawer::draw(const Drawable& drawable, const ChoiceMethod& method, Pay
   const auto screen = frontend_.run(drawable, options, execution);
   snapped_.assign(screen.begin(), screen.end());
   floats_.clear();
+  floats_.reserve(screen.size());
   for (std::size_t i = 0; i < screen.size(); ++i)
     floats_.push_back({frontend_.unsnapped()[i], screen[i].payload});
   method.method->draw({floats_, snapped_}, canvas_, execution);

@@ -42,8 +42,8 @@ class FrameDrawer {
   // Payload::id numbers the drawable's triangles from 1; the background is 0.
   void draw(const Drawable& drawable, const ChoiceMethod& method, Payload payload,
             const Execution& execution = {});
-  // The last draw() of this drawable by any method but a backend, again. The front end, which makes floats
-  // without SIMD, runs as it does for backends, and the method gets the floats of that draw().
+  // Repeats the last draw() of this drawable, to be timed. The front end runs without keeping floats, which
+  // needs scalar code; then the method, unless it is a backend, draws the floats that a draw() has kept.
   void redraw(const Drawable& drawable, const ChoiceMethod& method, Payload payload);
   const Canvas& canvas() const { return canvas_; }
 
