@@ -157,7 +157,7 @@ on() {
 }
 
 # everywhere PLATFORM…: tests the first, with which others compare, then these, as many at once as there are cores. Writes
-# platforms.json. Sets `status` to 1 if one fails.
+# platforms.tsv. Sets `status` to 1 if one fails.
 everywhere() {
   local platform
   mkdir -p "$platforms"
@@ -174,6 +174,6 @@ everywhere() {
   wait
   set -e
   for platform; do grep -qs $'\tpassed\t' "$platforms/$platform.result" || status=1; done
-  python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/platforms.json.part"
-  mv "$platforms/platforms.json"{.part,}
+  cat "$platforms"/*.result >"$platforms/platforms.tsv.part"
+  mv "$platforms/platforms.tsv"{.part,}
 }

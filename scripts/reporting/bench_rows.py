@@ -6,25 +6,21 @@ BACKEND+frontend, "cell" for a whole frame of factors.py, "choice" for one of ch
 laboratory, or "needs" for a pipeline of it.
 """
 import os
-from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import noise
 from program import parsed
 
-MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 COUNTERS = ("triangles", "width", "height", "covered_px", "overdraw", "depth_ties", "wrong_px")
 DIGITS = 5  # of the times in results/: more than any noise, so that no verdict changes
-LABORATORY = "lab"
 GPU = "gpu"  # the peer that has no number of threads
 
 
 @dataclass
 class Row:
     name: str
-    backend: str  # empty for the front end alone
-    frontend: bool
+    drawer: str  # without "+frontend"
     scene: str  # empty for sweeps over random triangles
     keys: dict
     times_ms: list = field(default_factory=list)
@@ -63,11 +59,8 @@ def gained(before, after):
 
 def parse_name(name):
     who, *rest = name.split("/")
-    pairs = [part.partition(":") for part in rest]
-    keys = {key: value for key, colon, value in pairs if colon}
-    scene = "/".join(key for key, colon, _ in pairs if not colon)
-    backend, plus, _ = who.partition("+")
-    return Row(name, "" if who == "frontend" else backend, bool(plus) or who == "frontend", scene, keys)
+    scene = "/".join(part for part in rest if ":" not in part)
+    return Row(name, who.removesuffix("+frontend"), scene, dict(part.split(":", 1) for part in rest if ":" in part))
 
 
 @dataclass
@@ -91,7 +84,7 @@ class Bench:
     def frame(self, who, scene, threads, target=None):
         """The row of a backend's or peer's whole frame, front end and backend; ours with the SIMD of `target`, by default the widest. A
         GPU's has one row, which is compared with ours on any number of threads."""
-        limit = "" if target in (None, self.context.get("simd_target")) else f"/target:{target}"
+        limit = "" if target in (None, self.context["simd_target"]) else f"/target:{target}"
         return self.find(f"{who}+frontend/{scene}{limit}/threads:{1 if who == GPU else threads}")
 
     def sweep(self, key):
@@ -116,12 +109,6 @@ def records(folder, name):
     return [*folder.glob(f"{name}.json"), *(path for path in beside if path.parent != folder.resolve())]
 
 
-def source_of(path, data):
-    """The machine of a record in results/, and the commit if it holds one."""
-    commit = data.get("commit")
-    return f"`{path.parent.name}`" + (f", commit {commit}" if commit else "")
-
-
 def joined(repetitions):
     """Rows as compact() writes them, of Google Benchmark's entries, one for each repetition."""
     rows = {}
@@ -132,7 +119,7 @@ def joined(repetitions):
         if entry.get("error_occurred"):
             row["error"] = entry.get("error_message", "error")
             continue
-        row["ms"].append(entry["real_time"] * MS[entry["time_unit"]])
+        row["ms"].append(entry["real_time"])  # all our rows are in milliseconds
         row.update((key, entry[key]) for key in COUNTERS if key in entry)  # later rows say what differs
     return rows
 
@@ -165,9 +152,7 @@ def read_bench(folder_or_file):
 
 def describe_machine(machine):
     """One line under every figure and table."""
-    told = defaultdict(lambda: "unknown", machine)
-    cores = told["cores"]
-    usable = machine.get("usable_cores", cores)
+    cores, usable = machine["cores"], machine["usable_cores"]
     part = "" if usable == cores else f"{usable} usable of "
-    return (f"{told['cpu_model']}, {part}{cores} core{'' if cores == 1 else 's'}, {told['simd_best']}, {told['memory_gib']} GiB; "
-            f"{told['os']}; {told['compiler']}, {told['build_type']}; commit {told['commit']}")
+    return (f"{machine['cpu_model']}, {part}{cores} core{'' if cores == 1 else 's'}, {machine['simd_best']}, {machine['memory_gib']} GiB; "
+            f"{machine['os']}; {machine['compiler']}, {machine['build_type']}; commit {machine['commit']}")

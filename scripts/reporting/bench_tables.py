@@ -3,7 +3,7 @@ import os
 
 from bench_rows import describe_machine, gained, order, read_bench, records
 from program import read_json
-from tables import VECTORS, about, milliseconds, number, outcome, with_width
+from tables import VECTORS, about, kernels, milliseconds, number, outcome
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -50,9 +50,10 @@ def peer_lines(bench):
     the pictures differ; or why there is none."""
     told = []
     for peer in timed_peers(bench):
-        widest, version = bench.context.get("simd_target"), bench.context.get(peer, "unknown version")
+        widest, version = bench.context["simd_target"], bench.context.get(peer, "unknown version")
         targets = [widest, *(target for target, (_, bits) in VECTORS.items() if target != widest and version.endswith(f", {bits} bits"))]
-        speeds = [f"with {with_width(target)}, " + "; ".join(f"{faster(bench, peer, n, target)} on {n} thread{'s' * (n > 1)}" for n in THREADS)
+        speeds = [f"with {kernels(target)}, {VECTORS[target][1]} bits, "
+                  + "; ".join(f"{faster(bench, peer, n, target)} on {n} thread{'s' * (n > 1)}" for n in THREADS)
                   for target in targets if pairs(bench, peer, max(THREADS), target)]
         most, why = max((row.counters.get(counter, 0), why) for n in THREADS for _, row in pairs(bench, peer, n) for counter, why in
                         (("depth_ties", "depth ties within tolerance"), ("wrong_px", "not portable")))

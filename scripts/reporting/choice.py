@@ -8,7 +8,7 @@ from tables import milliseconds, number
 TITLES = {"float_lt": "strict <", "float_le": "loose ≤", "float_top_left": "float top-left", "double_top_left": "double top-left",
           "fixed_4": "fixed 4 bits", "tiled_8": "tiled, 8 bits", "tiled_12": "tiled, 12 bits", "tiled_15": "tiled, 15 bits", "llvmpipe": "llvmpipe",
           "swiftshader": "SwiftShader"}
-OURS, PEERS = "tiled_", ("llvmpipe", "swiftshader")
+OURS = "tiled_"
 
 Wrong = namedtuple("Wrong", "mean least most holes")  # wrong pixels a frame, and the holes of all frames
 Point = namedtuple("Point", "method wrong row")  # with the time of the first frame

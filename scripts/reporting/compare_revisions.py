@@ -52,12 +52,8 @@ def revision(name):
 
 def run(command, what, statuses=(0,), **options):
     """BadInput if the command ends with another status, after the last lines of its output. An interruption ends its children, too."""
-    try:
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                   errors="replace", start_new_session=True, **options)
-    except OSError as error:
-        raise BadInput(f"{command[0]}: {error.strerror}") from None
-    with process:
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                          start_new_session=True, **options) as process:
         try:
             output, _ = process.communicate()
         except BaseException:
@@ -113,6 +109,7 @@ def add_round(side, found):
 
 def compare_revisions(before, after, pattern, rounds):
     """Prints the verdicts on the rows that match."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends all as Ctrl-C does
     for of in dict.fromkeys((before, after)):
         configure(of)
     sides = {}, {}
@@ -188,14 +185,3 @@ def means(ratios):
         groups.setdefault(name.split("/")[0].removesuffix("+frontend"), []).append(ratio)
     told = [f"{name} {geometric_mean(of):.3f}" for name, of in (*sorted(groups.items()), ("all", ratios.values()))]
     return "Geometric means of the ratios: " + ", ".join(told)
-
-
-def interruptible(compare):
-    """Runs compare(); Ctrl-C and SIGTERM end it without a result."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        compare()
-        return 0
-    except KeyboardInterrupt:
-        print("compare: interrupted: no result", file=sys.stderr)
-        return 130

@@ -1,12 +1,12 @@
-#!/usr/bin/env python3
-"""Draws README's picture: the corner of a cube whose vertices lie on pixel centres, by three methods, wrong pixels tinted."""
+"""Draws README's picture to a file: the corner of a cube whose vertices lie on pixel centres, by three methods, wrong pixels tinted."""
 import struct
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 from plot_style import plt
-from program import ROOT, Parser, main_guard
+from program import ROOT
 
 METHODS = {"float_lt": "Inside if all edge values are > 0", "dda_rounded": "Scanlines, rounded to pixels", "tiled": "Edgewise"}
 SIZE = 46, 42  # px
@@ -24,22 +24,14 @@ def stream():
     return struct.pack("<4s3I", b"TRI1", *SIZE, len(records)) + b"".join(records)
 
 
-def main():
-    parser = Parser(prog="corner_picture.py", description=__doc__, epilog="Needs build/edgewise. Exit status: 0 drawn, 2 bad input.")
-    parser.add_argument("picture", type=Path, metavar="FILE.png")
-    target = parser.parse_args().picture
-    figure, panels = plt.subplots(1, 3, figsize=(8.3, 2.72))
-    with tempfile.TemporaryDirectory() as folder:
-        scene, picture = Path(folder) / "corner.tri", Path(folder) / "corner.png"
-        scene.write_bytes(stream())
-        for panel, (method, title) in zip(panels, METHODS.items()):
-            subprocess.run([ROOT / "build/edgewise", "view", scene, "--coverage", method, "--keys", "e", "-o", picture],
-                           check=True, stdout=subprocess.DEVNULL)
-            panel.imshow(plt.imread(picture), interpolation="nearest")
-            panel.set_title(title, loc="center", fontsize=10.5)
-            panel.axis("off")
-    figure.savefig(target, dpi=200)
-    return 0
-
-
-main_guard(main)
+figure, panels = plt.subplots(1, 3, figsize=(8.3, 2.72))
+with tempfile.TemporaryDirectory() as folder:
+    scene, picture = Path(folder) / "corner.tri", Path(folder) / "corner.png"
+    scene.write_bytes(stream())
+    for panel, (method, title) in zip(panels, METHODS.items()):
+        subprocess.run([ROOT / "build/edgewise", "view", scene, "--coverage", method, "--keys", "e", "-o", picture],
+                       check=True, stdout=subprocess.DEVNULL)
+        panel.imshow(plt.imread(picture), interpolation="nearest")
+        panel.set_title(title, loc="center", fontsize=10.5)
+        panel.axis("off")
+figure.savefig(sys.argv[1], dpi=200)

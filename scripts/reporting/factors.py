@@ -86,4 +86,4 @@ def told(gain):
 
 def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
-    return ["factor", kernels(bench.context.get("simd_target")), "settled faster / slower"], list(map(told, gains(bench)))
+    return ["factor", kernels(bench.context["simd_target"]), "settled faster / slower"], list(map(told, gains(bench)))

@@ -16,7 +16,7 @@ def methods_table(accuracy, bench):
         totals = (sum(wrong for kind, wrong, _ in seen if kind == MESHES), sum(through for kind, _, through in seen if kind == MESHES),
                   sum(wrong for kind, wrong, _ in seen if kind == OUR_GRID))
         times = [bench.find(f"lab/{TIMED_SCENE}/family:coverage/method:{method.name}/simd:{target}/threads:1")
-                 for target in ("scalar", bench.context.get("simd_target"))]
+                 for target in ("scalar", bench.context["simd_target"])]
         lines.append([f"`{method.name}`", *(f"{total:,}" for total in totals), number(flicker[method.name]) if method.name in flicker else "–",
                       " / ".join(map(milliseconds, times))])
     return ["method", "wrong pixels of meshes", "showing through", "wrong pixels on our grid", "flicker", "ms, scalar / SIMD"], lines

@@ -1,9 +1,5 @@
-"""Joins the findings of `scripts/test --everywhere`, lines of a platform, a result and a finding, to JSON on stdout."""
-import fileinput
-import json
+"""The table of what `scripts/test --everywhere` found: lines of a platform, its result and a finding."""
 import re
-
-from program import main_guard, parsed
 
 # By platform, in the order of the table: how it is tried.
 TRIED = {
@@ -19,23 +15,11 @@ FOUND = (re.compile(r"^(\d+) frames .*no hash differs"), re.compile(r"PASSED\s*\
 
 
 def platforms_table(path):
-    found = parsed(path, lambda data: {name: data[name] for name in TRIED}, "scripts/test --everywhere")
+    findings = [line.split("\t", 2) for line in path.read_text(encoding="utf-8", errors="replace").splitlines()]
     lines = []
     for name, tried in TRIED.items():
-        hashes, tests, facts = (sum(int(match[1]) for text in found[name]["found"] if (match := pattern.search(text))) for pattern in FOUND)
-        lines.append([name.replace("_", "-") + ("" if found[name]["result"] == "passed" else ": **failed**"), tried,
+        results, texts = {result for of, result, _ in findings if of == name}, [text for of, _, text in findings if of == name]
+        hashes, tests, facts = (sum(int(match[1]) for text in texts if (match := pattern.search(text))) for pattern in FOUND)
+        lines.append([name.replace("_", "-") + ("" if results == {"passed"} else ": **failed**"), tried,
                       *(f"{count:,}" if count else "–" for count in (hashes, tests)), "the same as on x86-64" if facts else "–"])
     return ["platform", "tried by", "hashes compared, none differs", "tests of the library", "facts of small scenes, a file of each kind"], lines
-
-
-def main():
-    found = {}
-    for line in fileinput.input(encoding="utf-8", errors="replace"):
-        name, result, text = line.rstrip("\n").split("\t", 2)
-        found.setdefault(name, {"result": result, "found": []})["found"].append(text)
-    print(json.dumps(found, indent=1))
-    return 0
-
-
-if __name__ == "__main__":
-    main_guard(main)

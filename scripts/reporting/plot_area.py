@@ -20,9 +20,9 @@ def area_title(threads, curves):
 
 def area(bench, folder, caption):
     panels = {}  # {threads: {backend: {area: row}}}
-    for row in sorted(bench.sweep("area"), key=lambda row: (row.threads, bench.backends.index(row.backend), float(row.keys["area"]))):
+    for row in sorted(bench.sweep("area"), key=lambda row: (row.threads, bench.backends.index(row.drawer), float(row.keys["area"]))):
         curves = panels.setdefault(f"{row.threads} thread{'s' * (row.threads > 1)}", {})
-        curves.setdefault(row.backend, {})[float(row.keys["area"])] = row
+        curves.setdefault(row.drawer, {})[float(row.keys["area"])] = row
     if not panels:
         return None
     figure, [grid] = chart(area_title(*[*panels.items()][-1]),

@@ -72,7 +72,7 @@ def choice(accuracy, bench, folder, caption):
                 "thread. Best is bottom left. Red: a hole shows in a frame. Dark grey: what projecting in floats alone gets wrong. Light grey: 0.")
     notes = ("Wrong: another triangle than in the exact picture of the scene's vertices. A hole: inside a surface, something else shows. llvmpipe "
              "and SwiftShader are timed with their own projection and judged with ours. All others use our front end and "
-             f"{kernels(bench.context.get('simd_target'))}.\n{caption}")
+             f"{kernels(bench.context['simd_target'])}.\n{caption}")
     rows = (len(found) + 1) // 2
     figure, grid = chart(choice_title([points for _, points in found]), subtitle, notes, rows * PANEL_IN, (rows, 2), WIDTH_IN)
     labels = [draw_panel(axes, *panel) for axes, panel in zip(grid.flat, found)]

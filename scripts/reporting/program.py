@@ -13,14 +13,17 @@ class BadInput(Exception):
 
 
 def main_guard(main):
-    """Runs main(); bad input becomes one line and exit status 2."""
+    """Runs main(); bad input becomes one line and exit status 2, as does a file that can't be opened."""
     try:
         sys.exit(main())
-    except BadInput as error:
-        print(f"{Path(sys.argv[0]).stem}: {error}", file=sys.stderr)
-        sys.exit(2)
     except BrokenPipeError:
         sys.exit(141)
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except (BadInput, OSError) as error:
+        said = f"{error.filename}: {error.strerror}" if getattr(error, "filename", None) else error
+        print(f"{Path(sys.argv[0]).stem}: {said}", file=sys.stderr)
+        sys.exit(2)
 
 
 class Parser(argparse.ArgumentParser):
@@ -43,10 +46,7 @@ def positive(kind):
 
 def read_json(path):
     try:
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror}") from None
+        return json.loads(Path(path).read_text(encoding="utf-8"))
     except ValueError as error:
         raise BadInput(f"{path}: not JSON: {error}") from None
 
@@ -66,9 +66,8 @@ def write_bytes(path, content):
     try:
         partial.write_bytes(content)
         partial.replace(path)
-    except OSError as error:
+    finally:
         partial.unlink(missing_ok=True)
-        raise BadInput(f"cannot write {path}: {error.filename}: {error.strerror}") from None
 
 
 def write_json(path, data):

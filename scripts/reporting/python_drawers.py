@@ -1,6 +1,6 @@
 """Python packages that draw the ids and depths of the triangles that a camera sees, each in a process of its own. A drawer's load()
 takes a mesh, draw() returns two arrays: those of its last call, self.arrays, or new ones if that is None. Ids count from 1 in the
-lowest 24 bits, where background is 0; row 0 is the top.
+lowest 24 bits, where background is 0. Depths have a scale of the drawer's own. Row 0 is the top.
 
 Every drawer gets THREADS threads and cores, and the fastest settings that we found.
 """
@@ -9,8 +9,8 @@ import os
 import re
 import subprocess
 import time
+from collections import namedtuple
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from statistics import median
 
 import numpy as np
@@ -20,27 +20,15 @@ from program import BadInput
 THREADS = 2
 FOV_Y = 0.8  # radians
 
-
-@dataclass
-class Mesh:
-    positions: np.ndarray  # (n, 3), float32
-    triangles: np.ndarray  # (m, 3), uint32
-
-
-@dataclass
-class View:
-    size: tuple  # width, height
-    eye: np.ndarray  # (3,)
-    target: np.ndarray  # (3,)
-    world_to_view: np.ndarray  # (4, 4), of the two: x right, y up, and -z forward
-    near: float
-    far: float
+Mesh = namedtuple("Mesh", "positions triangles")  # arrays of shape (n, 3), float32, and (m, 3), uint32
+# The size is (width, height). `world_to_view` is that of the eye and the target, with x right, y up, and -z forward.
+View = namedtuple("View", "size eye target world_to_view near far")
 
 
 class Edgewise:
     def __init__(self):
         import edgewise
-        self.edgewise, self.version, self.depth01 = edgewise, "Edgewise", edgewise.depth01
+        self.edgewise, self.version = edgewise, "Edgewise"
 
     def load(self, mesh):
         self.scene = self.edgewise.Scene(mesh.positions, mesh.triangles)
@@ -55,10 +43,11 @@ class Edgewise:
 class Vtk:
     """Each triangle's colour is its id, without light, smoothing or multisampling; depth is the z-buffer. Debian's VTK draws through
     an X server only, here Xvfb, and Mesa's llvmpipe draws in this process."""
-    depth01 = np.float64
 
     def __init__(self):
-        os.environ["DISPLAY"] = start_xvfb()
+        server = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", "Xvfb", "-displayfd", "1", "-nolisten", "tcp"],  # ends with this process
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        os.environ["DISPLAY"] = ":" + server.stdout.readline().strip()
         import vtkmodules.all as vtk
         from vtkmodules.util import numpy_support
         self.vtk, self.numpy = vtk, numpy_support
@@ -108,7 +97,6 @@ class Vtk:
 class ModernGl:
     """The least that OpenGL does: one draw call, whose shader writes the triangle's number, and a read of both planes.
     Each triangle's last corner is a vertex of its own, which is faster than gl_PrimitiveID."""
-    depth01 = np.float64
     VERTEX = """#version 330
         uniform mat4 to_clip;
         in vec3 position;
@@ -156,21 +144,8 @@ class ModernGl:
 DRAWERS = {"edgewise": Edgewise, "vtk": Vtk, "moderngl": ModernGl}
 
 
-def start_xvfb():
-    """The name of the display. The server ends with this process."""
-    read, write = os.pipe()
-    subprocess.Popen(["setpriv", "--pdeathsig", "TERM", "Xvfb", "-displayfd", str(write), "-nolisten", "tcp"], pass_fds=[write],
-                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(write)
-    with os.fdopen(read) as display:
-        return ":" + display.readline().strip()
-
-
-here = None  # the drawer of a process that Drawer started
-
-
 def make(name):
-    """Makes it. Returns its version."""
+    """Makes the drawer of this process, which Drawer started. Returns its version."""
     global here
     os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:THREADS])
     os.environ.update(LIBGL_ALWAYS_SOFTWARE="1", GALLIUM_DRIVER="llvmpipe", LP_NUM_THREADS=str(THREADS))
@@ -179,7 +154,7 @@ def make(name):
 
 
 def drawn(mesh, view, calls=0, reuse=False):
-    """The picture's ids and depths in [0, 1], or, of so many calls, the median of their milliseconds. With a mesh, it is loaded anew.
+    """The picture's ids or, of so many calls, the median of their milliseconds. With a mesh, it is loaded anew.
     reuse: draws into the arrays of the last call."""
     times, kept = [], []  # all arrays are kept, since the allocator would hand out those that were freed as new ones
     for _ in range(calls or 1):
@@ -190,8 +165,7 @@ def drawn(mesh, view, calls=0, reuse=False):
             here.arrays = None
         kept.append(here.draw(view))
         times.append(1e3 * (time.perf_counter() - start))
-    ids, depth = kept[-1]
-    return median(times) if calls else (ids & 0xFFFFFF, here.depth01(depth))
+    return median(times) if calls else kept[-1][0] & 0xFFFFFF
 
 
 class Drawer:

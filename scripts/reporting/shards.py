@@ -8,9 +8,7 @@ ADDED = ("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_li
 
 
 def added(lines):
-    shards = {line["shard"] for line in lines}
-    if len(shards) < len(lines) or len({(line["seed"], line["commit"], line["shard"].partition("/")[2]) for line in lines}) > 1:
-        raise BadInput("only different shards of one seed, number of shards and commit add up")
+    """One record of runs on several machines, each with its own SIMD targets."""
     total = {**lines[0], **{key: [line[key] for line in lines] for key in ("shard", "cpu_model")},
              "simd_targets": list(dict.fromkeys(target for line in lines for target in line["simd_targets"]))}
     for line in lines[1:]:
@@ -20,8 +18,12 @@ def added(lines):
 
 def main():
     try:
-        print(json.dumps(added([json.loads(line) for line in fileinput.input(encoding="utf-8")])))
-    except (AttributeError, LookupError, OSError, TypeError, ValueError) as error:
+        lines = [json.loads(line) for line in fileinput.input(encoding="utf-8")]
+        runs = {(line["seed"], line["commit"], line["shard"].partition("/")[2]) for line in lines}
+        if len(runs) > 1 or len({line["shard"] for line in lines}) < len(lines):
+            raise BadInput("only different shards of one seed, number of shards and commit add up")
+        print(json.dumps(added(lines)))
+    except (AttributeError, LookupError, TypeError, ValueError) as error:
         raise BadInput(f"not lines of `edgewise verify --random`: {error!r}") from None
     return 0
 

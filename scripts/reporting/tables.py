@@ -1,10 +1,10 @@
-"""Figures, comparisons and tables as text: Markdown for the READMEs, plain text for the terminal."""
+"""Figures, comparisons and tables as text."""
 from bisect import bisect
 
 from bench_rows import gained, order
 
 # Of each SIMD target: its name in sentences, and the width of its vectors in bits.
-VECTORS = {"sse4": ("SSE4", 128), "avx2": ("AVX2", 256), "avx512": ("AVX-512", 512), "neon": ("NEON", 128)}
+VECTORS = {"scalar": ("scalar code", 32), "sse4": ("SSE4", 128), "avx2": ("AVX2", 256), "avx512": ("AVX-512", 512), "neon": ("NEON", 128)}
 
 
 def short(value, _=None):
@@ -31,12 +31,7 @@ def milliseconds(row):
 
 def kernels(target):
     """"AVX-512", or "scalar code"."""
-    return VECTORS[target][0] if target in VECTORS else "scalar code" if target == "scalar" else target or "unknown SIMD"
-
-
-def with_width(target):
-    """"AVX-512, 512 bits"."""
-    return f"{kernels(target)}, {VECTORS[target][1]} bits" if target in VECTORS else kernels(target)
+    return VECTORS[target][0]
 
 
 def about(ratio):
@@ -67,14 +62,3 @@ def gain(before, after):
 def markdown(header, lines, alignment):
     first, *rest = (f"| {' | '.join(line)} |" for line in (header, *lines))
     return "\n".join([first, alignment, *rest])
-
-
-def plain(header, lines):
-    """Columns between spaces: the first and the last to the left, figures to the right."""
-    def aligned(column, align):
-        width = max(map(len, column))
-        return [align(cell, width) for cell in column]
-
-    first, *figures, last = zip(header, *lines)
-    columns = [aligned(first, str.ljust), *(aligned(column, str.rjust) for column in figures), last]
-    return "\n".join(map("  ".join, zip(*columns)))

@@ -1,9 +1,11 @@
 """The verification summary: one table of the methods that `scripts/test --full` ran, their extent and their findings."""
+import sys
 from pathlib import Path
 
 from bench_rows import records
-from program import Parser, main_guard, read_json
-from tables import enumerated, kernels, plain, short
+from program import main_guard, read_json
+from shards import added
+from tables import enumerated, kernels, short
 
 RECORDS = ("verify", "tests", "prove", "mutate", "fuzz", "random")
 
@@ -54,17 +56,11 @@ def lines_of(record, data):
                    none_or(data["differences"], "difference", "differences"))
 
 
-def together(runs):
-    """Several machines' random pictures as one record: each machine runs its own SIMD targets."""
-    return {"simd_targets": list(dict.fromkeys(target for run in runs for target in run["simd_targets"])),
-            **{key: sum(run[key] for run in runs) for key in ("cases", "pixels", "differences")}}
-
-
 def verification_table(folder):
     """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
     found = {record: [read_json(path) for path in records(folder, record)] for record in RECORDS}
     return ["method", "extent", "found"], [[*line] for record, runs in found.items() if runs
-                                           for line in lines_of(record, together(runs) if record == "random" else runs[0])]
+                                           for line in lines_of(record, added(runs) if record == "random" else runs[0])]
 
 
 def elsewhere(folder):
@@ -75,10 +71,9 @@ def elsewhere(folder):
 
 
 def main():
-    parser = Parser(prog="verification_summary", description=__doc__)
-    parser.add_argument("folder", type=Path, help="results/MACHINE")
-    print(plain(*verification_table(parser.parse_args().folder)))
-    return 0
+    header, lines = verification_table(Path(sys.argv[1]))  # of results/MACHINE
+    widths = [max(map(len, column)) for column in zip(header, *lines)]
+    print(*("  ".join(map(str.ljust, line, widths)).rstrip() for line in (header, *lines)), sep="\n")
 
 
 if __name__ == "__main__":

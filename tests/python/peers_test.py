@@ -3,11 +3,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "reporting"))
-from program import BadInput  # noqa: E402
-from python_comparison import BACKGROUND, ball, compared, grid, read_obj, view_of  # noqa: E402
+from python_comparison import BACKGROUND, ball, compared, grid, view_of  # noqa: E402
 from python_drawers import FOV_Y, Drawer  # noqa: E402
 
 SIZE = (80, 60)
@@ -17,33 +15,23 @@ def picture_of(mesh):
     return Drawer("edgewise").drawn(mesh, view_of(mesh, SIZE))
 
 
-def test_each_pixel_shows_a_triangle_near_it_at_its_depth():
+def test_each_pixel_shows_a_triangle_near_it():
     mesh = grid(12, 6, ball)
-    view, (ids, depths) = view_of(mesh, SIZE), picture_of(mesh)
+    view, ids = view_of(mesh, SIZE), picture_of(mesh)
     shown = ids != BACKGROUND
     assert shown.sum() > 500
     middles = mesh.positions[mesh.triangles[ids[shown] - 1]].mean(1) @ view.world_to_view[:3, :3].T + view.world_to_view[:3, 3]
     seen = middles[:, :2] / middles[:, 2:] * (SIZE[1] / 2 / np.tan(FOV_Y / 2)) * (-1, 1) + np.array(SIZE) / 2
     assert (abs(seen - np.argwhere(shown)[:, ::-1] - 0.5) < 11).all()
-    nearest = np.linalg.norm(view.eye) - 1
-    assert nearest - 1e-6 < view.near * view.far / (view.far - depths[shown].min() * (view.far - view.near)) < nearest + 0.1
 
 
 def test_differences_are_counted_with_holes():
     mesh = grid(12, 6, ball)
     ours = picture_of(mesh)
-    ids, depths = (plane.copy() for plane in ours)
-    assert compared(ours, (ids, depths)) == {"differ": 0, "holes": 0, "depth_p99": 0.0}
+    ids = ours.copy()
+    assert compared(ours, ids) == {"differ": 0, "holes": 0}
     ids[30, 40] = BACKGROUND  # inside
     left = np.argmax(ids[30] != BACKGROUND)
     ids[30, left] = BACKGROUND  # at the edge, so no hole
     ids[30, left - 2] = 1  # outside
-    assert compared(ours, (ids, depths + 0.5)) == {"differ": 3, "holes": 1, "depth_p99": pytest.approx(0.5)}
-
-
-def test_a_file_without_a_mesh_is_refused(tmp_path):
-    path = tmp_path / "mesh.obj"
-    for text in ("", "v 0 0 0\nf 1 2 3\n"):
-        path.write_text(text)
-        with pytest.raises(BadInput):
-            read_obj(path)
+    assert compared(ours, ids) == {"differ": 3, "holes": 1}

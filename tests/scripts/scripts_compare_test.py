@@ -118,7 +118,7 @@ Not compared
     def test_an_interruption_leaves_no_result(self):
         for end in (signal.SIGINT, signal.SIGTERM):
             result = self.compare("HEAD", "--filter", "tiled", INTERRUPTS=str(int(end)))
-            self.assertEqual((result.returncode, result.stderr), (130, "compare: interrupted: no result\n"))
+            self.assertEqual((result.returncode, result.stderr), (130, ""))
             self.assertNotIn("slower", result.stdout)
 
 

@@ -12,7 +12,7 @@ from bench_rows import Row, read_bench
 
 def order(a, b, rounds=False):
     """Of repetitions, or of rounds."""
-    return bench_rows.order(*(Row("", "", False, "", {}, list(times), rounds=rounds) for times in (a, b)))
+    return bench_rows.order(*(Row("", "", "", {}, list(times), rounds=rounds) for times in (a, b)))
 
 
 class UnpairedTest(unittest.TestCase):

@@ -49,10 +49,10 @@ class PublishTest(FolderTest):
         written = {f"{path.parent.name}/{path.name}" for path in self.built.glob("*/*.json")}
         for name in ("mine/older.json", "mine/python.json", "mine/charts/threads.svg", "mine/charts/area.svg"):
             self.file(self.results / name, "{}")
-        for name in ("page/page.html", "platforms/platforms.json"):
+        for name in ("page/page.html", "platforms/platforms.tsv"):
             self.file(self.folder / "build" / name, f"new {name}")
         found = self.published()
-        self.assertEqual(set(found), {*written, *SHOWN, "mine/older.json", "page.html", "platforms.json"})
+        self.assertEqual(set(found), {*written, *SHOWN, "mine/older.json", "page.html", "platforms.tsv"})
         self.assertEqual(found["mine/charts/area.svg"], b"new mine/charts/area.svg")
 
     def test_what_reports_use_is_kept_in_fewer_bytes(self):

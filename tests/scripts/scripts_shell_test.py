@@ -1,6 +1,5 @@
 """The scripts' command lines, and the shell scripts' steps, builds and verdicts, with programs made up here in place of cmake,
 ctest and apt-get."""
-import json
 import os
 import re
 import shutil
@@ -166,9 +165,8 @@ class ShellTest(FolderTest):
             everywhere wrong missing fine; exit $status'''
         result = self.library("cd $root;" + platforms)
         self.assertEqual(result.returncode, 1, result.stderr)
-        found = {"wrong": ("failed", ["one", "wrong"]), "missing": ("failed", ["nothing found"]), "fine": ("passed", ["one", "three"])}
-        written = json.loads((self.root / "build/platforms/platforms.json").read_text())
-        self.assertEqual({name: (one["result"], one["found"]) for name, one in written.items()}, found)
+        self.assertEqual((self.root / "build/platforms/platforms.tsv").read_text(), "".join(f"{line}\n" for line in (
+            "fine\tpassed\tone", "fine\tpassed\tthree", "missing\tfailed\tnothing found", "wrong\tfailed\tone", "wrong\tfailed\twrong")))
         self.assertRegex(result.stdout, r"wrong: failed, \d s after the start of this step; see build/platforms/wrong.log\n")
 
     def test_a_run_draws_and_verifies_before_it_builds_the_rest_and_a_full_one_can_be_published(self):

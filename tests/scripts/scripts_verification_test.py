@@ -5,6 +5,7 @@ import unittest
 
 from support import SCRIPTS, FolderTest, run
 from platforms import TRIED, platforms_table
+from shards import ADDED
 from verification_summary import verification_table
 
 SHARDS = ('''<testsuites>
@@ -38,7 +39,7 @@ class VerificationTest(FolderTest):
         for name, data in {"verify": {"scenes": [scene]}, "tests": TOTALS, "mutate": {"mutations": 25, "caught": 24},
                            "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
                            "fuzz": {"cpu_hours": 1.0, "targets": [{"executions": 12_345, "crashes": ["a", "b"]}]},
-                           "random": {"simd_targets": ["sse4"], "cases": 1, "pixels": 1, "differences": 2}}.items():
+                           "random": {**dict.fromkeys(ADDED, 2), "simd_targets": ["sse4"], "shard": "0/1", "cpu_model": "X"}}.items():
             self.file(f"{name}.json", json.dumps(data))
         self.assertEqual([found for _, _, found in verification_table(self.folder)[1]], [
             "**7 pixels differ**", "**1 failure**; 1 skipped", "**1 failure**",
@@ -50,9 +51,8 @@ class PlatformsTest(FolderTest):
     def test_findings_have_their_columns_and_a_failure_is_told(self):
         findings = {name: ("passed", ["2000 frames of 3 groups: no hash differs", "300 frames drawn: no hash differs"]) for name in TRIED}
         findings["s390x"] = ("failed", ["20 frames: 1 hash differs", "[  PASSED  ] 1312 tests.", "9 bytes of facts are those of x86-64"])
-        lines = self.file("lines", "".join(f"{name}\t{result}\t{text}\n" for name, (result, texts) in findings.items() for text in texts))
-        result = run(sys.executable, SCRIPTS / "reporting/platforms.py", lines)
-        table = platforms_table(self.file("platforms.json", result.stdout))[1]
+        lines = "".join(f"{name}\t{result}\t{text}\n" for name, (result, texts) in findings.items() for text in texts)
+        table = platforms_table(self.file("platforms.tsv", lines))[1]
         self.assertEqual([line[0] for line in table], ["x86-64", "consumer", "aarch64", "s390x: **failed**", "riscv64", "wasm32"])
         expected = [["2,300", "–", "–"]] * 6
         expected[3] = ["–", "1,312", "the same as on x86-64"]
