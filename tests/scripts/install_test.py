@@ -102,7 +102,9 @@ class Installed(unittest.TestCase):
         run("cmake", "--install", build, "--prefix", prefix)
         return prefix
 
-    def use_package(self, prefix, build, *options):
+    def use_both(self, prefix, name, *options):
+        """Builds the consumer with an installed copy, by CMake and by pkg-config."""
+        build = self.folder / f"{name}-package"
         configure(CONSUMER, build, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *options)
         compiled(build)
         self.use(build)
@@ -111,11 +113,9 @@ class Installed(unittest.TestCase):
         self.assertIn(" -std=", commands)
         self.assertLessEqual(set(re.findall(r" (-[fWDm]\S*)", commands)), {"-DNDEBUG", "-fPIC", "-Dplugin_EXPORTS"}, "a flag leaks")
 
-    def use_pkg_config(self, prefix, build):
+        build, environment = self.folder / f"{name}-pkg-config", pkg_config(prefix)
         build.mkdir()
-        environment = pkg_config(prefix)
-        version = run("pkg-config", "--modversion", "edgewise", **environment)
-        self.assertEqual(version, cached("CMAKE_PROJECT_VERSION") + "\n")
+        self.assertEqual(run("pkg-config", "--modversion", "edgewise", **environment), cached("CMAKE_PROJECT_VERSION") + "\n")
         for program, package in (("picture", "edgewise-files"), ("square", "edgewise"), ("seen", "edgewise")):
             flags = run("pkg-config", "--cflags", "--libs", package, **environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
@@ -123,10 +123,6 @@ class Installed(unittest.TestCase):
         run("cc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fvisibility=hidden", CONSUMER / "square.c",
             "-o", build / "square_c", *flags)
         self.use(build, **environment)
-
-    def use_both(self, prefix, name, *options):
-        self.use_package(prefix, self.folder / f"{name}-package", *options)
-        self.use_pkg_config(prefix, self.folder / f"{name}-pkg-config")
 
     def test_cmake_and_pkg_config(self):
         self.use_both(self.prefix, "installed")
@@ -154,15 +150,13 @@ class Installed(unittest.TestCase):
 
     def test_the_licence_and_public_headers_are_installed_and_no_others(self):
         self.assertTrue((self.prefix / "share/doc/edgewise/LICENSE").read_text().startswith("MIT License"))
-        headers = {path.name: path for path in self.prefix.rglob("*.h")}
-        self.assertEqual(set(headers), {path.name for path in HEADERS.glob("*.h")})
-        for path in headers.values():
-            for included in re.findall(r'^#include "(\S*)"', path.read_text(), re.MULTILINE):
-                self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
+        self.assertEqual({path.name for path in self.prefix.rglob("*.h")}, {path.name for path in HEADERS.glob("*.h")})
 
     def test_each_header_stands_alone_pleases_strict_compilers_and_says_in_one_line_that_it_needs_cxx20(self):
         user = self.folder / "user.cpp"
         for path in self.prefix.rglob("*.h"):
+            for included in re.findall(r'^#include "(\S*)"', path.read_text(), re.MULTILINE):
+                self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
             compile_it = [cached("CMAKE_CXX_COMPILER"), "-fsyntax-only", "-I", path.parent.parent, user]
             user.write_text(f"#include <edgewise/{path.name}>\n")
             if FULL:

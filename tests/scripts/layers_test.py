@@ -1,9 +1,9 @@
 """No include points up: which folder may include which others (the rooms of README's map)."""
 import re
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from support import ROOT
+
 # A public header belongs to the room that implements it. All rooms may include those of the room "edgewise".
 ROOM_OF = {"backend.h": "raster", "barycentrics.h": "queries", "builtin.h": "scene", "camera.h": "scene", "draw.h": "draw.cpp",
            "execution.h": "core", "framebuffer.h": "raster",

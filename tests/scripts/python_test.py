@@ -49,15 +49,11 @@ before = set(SOURCE.rglob("*"))
 subprocess.run([python, "-m", "venv", "--system-site-packages", venv], check=True)
 
 
-def run(*command, **options):
-    subprocess.run([venv / "bin" / "python", *command], check=True, env={**environment, **options.pop("env", {})}, **options)
+def run(*command, cwd=None, stdout=None, **variables):
+    subprocess.run([venv / "bin" / "python", *command], check=True, cwd=cwd, stdout=stdout, env={**environment, **variables})
 
 
-def install(source, has_fmt, *options):
-    run("-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-index", *options, source,
-        env={"CMAKE_ARGS": f"-DCMAKE_DISABLE_FIND_PACKAGE_fmt={'OFF' if has_fmt else 'ON'}"})
-
-
+pip_install = "-m pip install --quiet --no-build-isolation --no-index".split()
 archives, without_lab = FOLDER / "archives", FOLDER / "without_lab"
 for folder in (archives, without_lab):
     shutil.rmtree(folder, ignore_errors=True)
@@ -72,7 +68,7 @@ with tarfile.open(archive) as packed:
 unpacked = (archives / archive.name.removesuffix(".tar.gz")).rename(archives / "unpacked")
 if "MIT" not in (unpacked / "PKG-INFO").read_text():
     sys.exit("the archive does not name its licence")
-install(unpacked, False, "--no-deps", "--target", without_lab)
+run(*pip_install, "--no-deps", "--target", without_lab, unpacked, CMAKE_ARGS="-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON")
 run("-c", WITHOUT_LAB, cwd=without_lab)
-install(unpacked, True)
+run(*pip_install, unpacked, CMAKE_ARGS="-DCMAKE_DISABLE_FIND_PACKAGE_fmt=OFF")
 run("-m", "pytest", "-q", "-p", "no:cacheprovider", ROOT / "tests" / "python", cwd=FOLDER)

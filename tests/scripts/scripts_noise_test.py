@@ -15,25 +15,29 @@ def order(a, b, rounds=False):
     return bench_rows.order(*(Row("", "", "", {}, list(times), rounds=rounds) for times in (a, b)))
 
 
-class UnpairedTest(unittest.TestCase):
+class NoiseTest(FolderTest):
     def test_equal_sides_differ_in_at_most_one_case_of_a_hundred(self):
-        for n, m, least in ((5, 5, 0), (3, 9, 0), (5, 9, 0), (6, 7, 0), (7, 7, 0.006)):  # in each order that chance may give, once
-            every = set(range(n + m))
-            claims = [order(some, every - set(some)) for some in combinations(sorted(every), n)]
+        """Each order of repetitions that chance may give, and each choice of the rounds' signs, once."""
+        cases = {(n, m, least): [order(some, set(range(n + m)) - set(some)) for some in combinations(range(n + m), n)]
+                 for n, m, least in ((5, 5, 0), (3, 9, 0), (5, 9, 0), (6, 7, 0), (7, 7, 0.006))}
+        cases |= {(rounds, rounds, 0.004): [order([1.01 ** (sign * rank) for rank, sign in enumerate(signs, 1)], [1.0] * rounds, True)
+                                            for signs in product((1, -1), repeat=rounds)] for rounds in (8, 11)}
+        for (n, m, least), claims in cases.items():
             self.assertLessEqual(sum(map(abs, claims)), noise.LEVEL * len(claims), (n, m))
             self.assertGreater(sum(map(abs, claims)), least * len(claims), (n, m, "a stricter test finds less"))
             self.assertTrue(n != m or sum(claims) == 0)
 
+    def assert_orders(self, *cases, rounds=False):
+        for a, b, sign in cases:
+            self.assertEqual((order(a, b, rounds), order(b, a, rounds)), (sign, -sign), (a, b))
+
     def test_signs_outliers_and_ties_that_count_against_a_claim(self):
-        for a, b, sign in (([1, 2, 3, 4, 5], [6, 7, 8, 9, 10], -1), ([1, 2, 3, 4, 6.5], [6, 7, 8, 9, 10], 0), ([*range(8), 99], [*range(10, 19)], -1),
-                           ([1, 2, 3, 4, 5], [5, 6, 7, 8, 9], 0), ([1.0] * 9, [1.0] * 9, 0)):
-            self.assertEqual((order(a, b), order(b, a)), (sign, -sign))
+        self.assert_orders(([1, 2, 3, 4, 5], [6, 7, 8, 9, 10], -1), ([1, 2, 3, 4, 6.5], [6, 7, 8, 9, 10], 0),
+                           ([*range(8), 99], [*range(10, 19)], -1), ([1, 2, 3, 4, 5], [5, 6, 7, 8, 9], 0), ([1.0] * 9, [1.0] * 9, 0))
 
     def test_few_repetitions_settle_only_a_gap(self):
         for n, m in ((3, 3), (1, 5), (2, 9), (4, 5)):
-            for factor, sign in ((1.9, 0), (2.1, 1)):
-                a, b = [factor] * n, [1.0] * m
-                self.assertEqual((order(a, b), order(b, a)), (sign, -sign), (n, m))
+            self.assert_orders(([1.9] * n, [1.0] * m, 0), ([2.1] * n, [1.0] * m, 1))
         self.assertEqual(order([9.0], [1.0]), 0, "one repetition each settles nothing")
 
     def test_noise_seldom_makes_a_gap_between_few_repetitions(self):
@@ -49,24 +53,13 @@ class UnpairedTest(unittest.TestCase):
             self.assertGreater(len(claims), 500, sizes)
             self.assertLessEqual(sum(map(abs, claims)), noise.LEVEL * len(claims), sizes)
 
-
-class PairedTest(FolderTest):
-    def test_equal_sides_differ_in_at_most_one_case_of_a_hundred(self):
-        for rounds in (8, 11):  # with each choice of signs, once
-            claims = [order([1.01 ** (sign * rank) for rank, sign in enumerate(signs, 1)], [1.0] * rounds, True)
-                      for signs in product((1, -1), repeat=rounds)]
-            self.assertLessEqual(sum(map(abs, claims)), noise.LEVEL * len(claims))
-            self.assertEqual(sum(claims), 0)
-            self.assertGreater(sum(map(abs, claims)), 0.004 * len(claims))
-
     def test_one_side_of_every_round_decides(self):
         drift = [1.0 + i / 10 for i in range(11)]
         slower = [1.01 * time for time in drift]
-        for a, b, sign in ((drift, slower, -1), (slower, drift, 1), (drift, drift, 0), (drift, slower[:-1], -1),  # of the rounds that timed both
+        self.assert_orders((drift, slower, -1), (drift, drift, 0), (drift, slower[:-1], -1),  # of the rounds that timed both
                            ([1.01] * 7 + [1.0], [1.0] * 8, 0),  # an equal round counts against the claim
                            ([2.0] * 10 + [0.5] * 2, [1.0] * 12, 0),  # two contradictions have the higher ranks of rounds of the same size
-                           (drift[:5], slower[:5], 0), (drift[:5], drift[5:10], -1)):  # few rounds are judged as repetitions
-            self.assertEqual(order(a, b, True), sign)
+                           (drift[:5], slower[:5], 0), (drift[:5], drift[5:10], -1), rounds=True)  # few rounds are judged as repetitions
         self.assertEqual(order(drift, slower), 0, "shuffled repetitions")
 
     def test_rows_that_were_repeated_in_each_round_are_paired(self):
@@ -81,16 +74,14 @@ class PairedTest(FolderTest):
         self.assertEqual(noise.family([(1, 0.002), (1, 0.009), (-1, 0.006)]), [1, 0, 0], "none after the first that fails")
         self.assertEqual([noise.fewest_rounds(noise.LEVEL / rows) for rows in (1, 2, 8)], [8, 9, 11])
 
-
-class IntervalTest(unittest.TestCase):
-    def test_it_holds_the_median_of_most_samples(self):
+    def test_an_interval_holds_the_median_of_most_samples(self):
         generator = random.Random(3)
         for size, least in ((5, 0.9), (30, 0.92)):
             intervals = [noise.interval([generator.lognormvariate(0.0, 0.1) for _ in range(size)]) for _ in range(300)]
             held = sum(low <= 1.0 <= high for low, high in intervals) / 300
             self.assertTrue(least < held < 0.995, held)
 
-    def test_it_is_that_of_the_median_or_of_a_ratio(self):
+    def test_an_interval_is_that_of_the_median_or_of_a_ratio(self):
         values = [1.0 + i * i / 100 for i in range(9)]
         low, high = noise.interval(values)
         self.assertTrue(min(values) < low < noise.median(values) < high < max(values))

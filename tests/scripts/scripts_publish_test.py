@@ -1,11 +1,10 @@
 """scripts/publish: what it copies to results/, and what results/ of this repository holds."""
 import json
 import random
-import shutil
 import unittest
 
-from support import RESULTS, ROOT, SCRIPTS, FolderTest, copied_results, google_benchmark, read, run
-from bench_rows import order, read_bench
+from support import RESULTS, ROOT, SCRIPTS, CopyTest, copied_results, google_benchmark, read, run
+from bench_rows import read_bench
 
 README = """<!-- results: results/mine -->
 ![](results/facts/pictures/torus-knot.png)
@@ -16,10 +15,9 @@ and one of another folder: ![](../charts/threads.svg)
 SHOWN = {"facts/pictures/torus-knot.png", "mine/charts/area.svg", "facts/errors/crack.png"}
 
 
-class PublishTest(FolderTest):
+class PublishTest(CopyTest):
     def setUp(self):
         super().setUp()
-        shutil.copytree(SCRIPTS, self.folder / "scripts", ignore=shutil.ignore_patterns("README.md"))
         self.built, self.results = self.folder / "build/results", self.folder / "results"
         self.mine = copied_results(self.built).rename(self.built / "mine")
         for name in (*SHOWN, "facts/pictures/cube.png", "mine/charts/threads.svg"):
@@ -29,18 +27,12 @@ class PublishTest(FolderTest):
         self.git("init", "--quiet")
         self.git("add", "README.md", "src")
 
-    def git(self, *words):
-        self.assertEqual(run("git", "-C", self.folder, *words).returncode, 0)
-
-    def publish(self, *arguments):
-        return run(self.folder / "scripts/publish", *arguments)
-
     def files(self):
         return {str(path.relative_to(self.results)): path.read_bytes() for path in self.results.rglob("*") if path.is_file()}
 
     def published(self):
         """The files that are then in results/."""
-        result = self.publish(self.mine)
+        result = self.script("publish", self.mine)
         self.assertEqual(result.returncode, 0, result.stderr)
         return self.files()
 
@@ -78,18 +70,15 @@ class PublishTest(FolderTest):
             self.assertEqual((kept.counters, kept.error, kept.rounds), (row.counters, row.error, row.rounds))
             for ms, kept_ms in zip(row.times_ms, kept.times_ms, strict=True):
                 self.assertLess(abs(kept_ms / ms - 1), 1e-4)
-        for _ in range(200):
-            one, other = generator.sample([name for name in before.rows if name.startswith("cell/cube")], 2)
-            self.assertEqual(order(after.rows[one], after.rows[other]), order(before.rows[one], before.rows[other]))
 
     def test_what_is_no_whole_run_is_refused_and_changes_nothing(self):
         before, bench = self.published(), self.mine / "bench.json"
         for folder in (self.folder / "nowhere", self.results / "mine", self.built / "facts"):
-            self.fails(self.publish(folder), f"publish: {folder}: no results of a run")
+            self.fails(self.script("publish", folder), f"publish: {folder}: no results of a run")
         (self.built / "facts/errors/crack.png").unlink()
-        self.fails(self.publish(self.mine), "results/facts/errors/crack.png: a README shows it, but the run did not draw it")
+        self.fails(self.script("publish", self.mine), "results/facts/errors/crack.png: a README shows it, but the run did not draw it")
         bench.write_text(bench.read_text().replace('"suite":"full"', '"suite":"quick"'))
-        self.fails(self.publish(self.mine), "`scripts/run --full` makes")
+        self.fails(self.script("publish", self.mine), "`scripts/run --full` makes")
         self.assertEqual(self.files(), before)
 
     def test_records_without_a_benchmark_are_added(self):
@@ -102,12 +91,12 @@ class PublishTest(FolderTest):
     def test_check_lists_what_is_superfluous_and_what_is_missing(self):
         self.published()
         self.git("add", "results")
-        result = self.publish("--check")
+        result = self.script("publish", "--check")
         self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
         self.file(self.results / "mine/page.html", "")
         self.git("add", "results")
         self.git("rm", "--quiet", "--cached", "results/facts/errors/crack.png")
-        result = self.publish("--check")
+        result = self.script("publish", "--check")
         self.assertEqual((result.returncode, result.stdout.splitlines()),
                          (1, ["results/mine/page.html: no README shows it",
                               "results/facts/errors/crack.png: a README shows it, but it is not committed"]))

@@ -6,7 +6,7 @@ import shutil
 import sys
 import unittest
 
-from support import RESULTS, SCRIPTS, FolderTest
+from support import RESULTS, CopyTest
 
 LONG = "x" * 200
 TOOLS = {
@@ -79,22 +79,18 @@ print({{"list": '{{"scenes": [{{"name": "cube"}}]}}', "demo": '[{{"name": "turn"
 """
 
 
-class ShellTest(FolderTest):
+class ShellTest(CopyTest):
     def setUp(self):
         super().setUp()
-        self.root, self.calls = self.folder / "root", self.folder / "calls"
-        shutil.copytree(SCRIPTS, self.root / "scripts")
+        self.calls = self.folder / "calls"
         for name, body in TOOLS.items():
             self.tool(name, f"#!/bin/bash\n{body}\n")
         self.tool("program", PROGRAM)
         self.environment |= {"CALLS": str(self.calls), "CTEST_XML": f"{self.folder}/ctest.xml", "PROGRAM": f"{self.folder}/tools/program"}
 
-    def run_script(self, name, *arguments, **environment):
-        return self.with_tools(self.root / "scripts" / name, *arguments, **environment)
-
     def library(self, commands, **environment):
         """lib.sh, then these."""
-        return self.with_tools("bash", "-c", f"set -euo pipefail; . {self.root}/scripts/lib.sh; {commands}", **environment)
+        return self.with_tools("bash", "-c", f"set -euo pipefail; . {self.folder}/scripts/lib.sh; {commands}", **environment)
 
     def test_a_wrong_command_line_is_told_in_one_line_before_anything_runs(self):
         python_scripts = ("fuzz", "prove", "mutate", "compare", "readme", "summary", "publish", "plot", "python_peers")
@@ -106,31 +102,30 @@ class ShellTest(FolderTest):
                                           ("--no-install must stand before --bare", "test", "--bare", "--no-install"),
                                           ("'eight'", "fuzz", "eight"), ("not a file", "run", "--mesh", self.folder),
                                           ("no such file, and no revision", "compare", "a")):
-            result = self.run_script(script, *arguments)
+            result = self.script(script, *arguments)
             self.fails(result, words)
-            self.assertEqual((result.stdout, self.calls.exists(), (self.root / "build").exists()), ("", False, False), "something ran")
+            self.assertEqual((result.stdout, self.calls.exists(), (self.folder / "build").exists()), ("", False, False), "something ran")
 
     def test_missing_packages_are_named_before_anything_runs(self):
         for missing, *command in (("ninja-build", "test", "-R", "x", "--no-install"), ("chromium-driver", "test", "--full", "--no-install"),
                                   ("libegl-dev", "run", "--peers", "--no-install")):
-            result = self.run_script(*command, MISSING=missing)
-            self.assertEqual(result.returncode, 2)
+            result = self.script(*command, MISSING=missing)
+            self.assertEqual((result.returncode, self.calls.exists()), (2, False), "something ran")
             self.assertIn(f"Missing packages: {missing}\n", result.stderr)
-            self.assertFalse(self.calls.exists(), "something ran")
 
     def test_a_page_that_would_be_another_fails_its_check(self):
-        self.file("root/src/web/page.html", "<@PROGRAM@>\n")
-        self.file("root/build/page/edgewise_page", "program")
-        committed = self.file("root/results/page.html", "<another>\n")
-        result = self.run_script("page", "--check")
+        self.file("src/web/page.html", "<@PROGRAM@>\n")
+        self.file("build/page/edgewise_page", "program")
+        committed = self.file("results/page.html", "<another>\n")
+        result = self.script("page", "--check")
         self.assertEqual((result.returncode, committed.read_text()), (1, "<another>\n"))
         self.assertIn("of other versions of these packages:\ninstalled", result.stdout)
-        shutil.copy(self.root / "build/page/page.html", committed)
-        self.assertEqual(self.run_script("page", "--check").returncode, 0)
+        shutil.copy(self.folder / "build/page/page.html", committed)
+        self.assertEqual(self.script("page", "--check").returncode, 0)
         self.assertRegex(committed.read_text(), "^<H4sI[^>]+>\n$")
 
     def test_swiftshader_is_unpacked_or_left_out(self):
-        package, folder = self.folder / "package", self.root / "build/swiftshader"
+        package, folder = self.folder / "package", self.folder / "build/swiftshader"
         self.file("package/DEBIAN/control", "Package: chromium-common\nVersion: 7\nArchitecture: all\nMaintainer: me\nDescription: x\n")
         for name in ("libvk_swiftshader.so", "vk_swiftshader_icd.json", "chromium"):
             self.file(f"package/usr/lib/chromium/{name}", name)
@@ -139,7 +134,7 @@ class ShellTest(FolderTest):
             self.tool("apt-get", f"#!/bin/bash\n{apt_get}\n")
             result = self.library("unpack_swiftshader")
             self.assertEqual((result.returncode, result.stderr), (0, told))
-            self.assertEqual(list((self.root / "build").iterdir()), [] if told else [folder])
+            self.assertEqual(list((self.folder / "build").iterdir()), [] if told else [folder])
         self.assertEqual((folder / "package").read_text(), "chromium-common 7")
         for copy in ("1", "2"):
             self.assertEqual({file.name for file in (folder / copy).iterdir()}, {"libvk_swiftshader.so", "vk_swiftshader_icd.json"})
@@ -147,7 +142,7 @@ class ShellTest(FolderTest):
     def test_without_a_network_the_first_line_says_so(self):
         for said, first in (("W: Failed to fetch http://deb.debian.org/InRelease  Temporary failure resolving 'deb.debian.org'", "No network: "),
                             ("E: dpkg was interrupted", "apt-get failed.")):
-            result = self.run_script("test", MISSING="ninja-build", APT_SAYS=said)
+            result = self.script("test", MISSING="ninja-build", APT_SAYS=said)
             self.assertEqual(result.returncode, 2)
             self.assertRegex(result.stderr, f"^{first}.*\n.*apt-get install --no-install-recommends ninja-build\napt-get said:\n{said}\n$")
 
@@ -165,45 +160,42 @@ class ShellTest(FolderTest):
             everywhere wrong missing fine; exit $status'''
         result = self.library("cd $root;" + platforms)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertEqual((self.root / "build/platforms/platforms.tsv").read_text(), "".join(f"{line}\n" for line in (
+        self.assertEqual((self.folder / "build/platforms/platforms.tsv").read_text(), "".join(f"{line}\n" for line in (
             "fine\tpassed\tone", "fine\tpassed\tthree", "missing\tfailed\tnothing found", "wrong\tfailed\tone", "wrong\tfailed\twrong")))
         self.assertRegex(result.stdout, r"wrong: failed, \d s after the start of this step; see build/platforms/wrong.log\n")
 
     def test_a_run_draws_and_verifies_before_it_builds_the_rest_and_a_full_one_can_be_published(self):
-        self.file("root/scripts/plot", """import sys
+        self.file("scripts/plot", """import sys
 from pathlib import Path
 folder = Path(sys.argv[sys.argv.index("--out") + 1])
 folder.mkdir()
 (folder / "choice.svg").write_text(" ".join(sys.argv))
 """)
-        self.file("root/scripts/reporting/corner_picture.py", "")  # reads pictures
+        self.file("scripts/reporting/corner_picture.py", "")  # reads pictures
 
         def outside_build():
-            return {path: path.stat().st_mtime_ns for path in self.root.rglob("*") if path.is_file() and self.root / "build" not in path.parents}
+            return {path: path.stat().st_mtime_ns for path in self.folder.rglob("*")
+                    if path.is_file() and path != self.calls and self.folder / "build" not in path.parents}
 
-        def ran(where, *arguments):
-            before = outside_build()
-            result = self.run_script("run", "--no-install", *arguments)
+        before = outside_build()
+        for where, *arguments in (("first-results",), ("results", "--full")):
+            result = self.script("run", "--no-install", *arguments)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
             self.assertEqual(outside_build(), before)
             self.assertIn(f"\nChart:    build/{where}/mine/charts/choice.svg\nPictures: build/{where}/facts/pictures\n", result.stdout)
-            drawn = (self.root / f"build/{where}/mine/charts/choice.svg").read_text()
+            drawn = (self.folder / f"build/{where}/mine/charts/choice.svg").read_text()
             self.assertEqual("--main" in drawn, "--full" not in arguments)
-            return result.stdout
-
-        told = ran("first-results")
+            self.assertLess(max(map(len, result.stdout.split("\n\n", 1)[1].splitlines())), 81)
         calls = [line for line in self.calls.read_text().splitlines() if "-S" not in line]
         order = [next(i for i, call in enumerate(calls) if re.search(what, call)) for what in
                  ("cmake .* edgewise_first$", "first render", "first verify", "cmake .* edgewise_bench$", "accuracy choice", "bench --quick")]
         self.assertEqual(order, sorted(order))
-        self.assertLess(max(map(len, told.split("\n\n", 1)[1].splitlines())), 81)
-        ran("results", "--full")
-        facts = {path.stem for path in (self.root / "build/results/facts").glob("*.json")}
+        facts = {path.stem for path in (self.folder / "build/results/facts").glob("*.json")}
         self.assertLessEqual({"accuracy", "demos", "needs", "portable", "stability"}, facts)
 
     def run_tests(self, *arguments, xml=CTEST_CASES % "", **environment):
         self.file("ctest.xml", xml)
-        result = self.run_script("test", *arguments, **environment)
+        result = self.script("test", *arguments, **environment)
         return result, result.stdout.splitlines()
 
     def test_the_verdict_counts_all_runs_and_tells_why_tests_are_skipped(self):
@@ -215,7 +207,7 @@ folder.mkdir()
         self.assertRegex(self.calls.read_text(), r"\nqemu-aarch64 .*/edgewise_hashes .*/tests/hashes.json --frames 200\n")
 
     def test_a_wrong_hash_on_another_processor_fails(self):
-        self.file("root/build/edgewise_hashes", '#!/bin/bash\nshift\necho "0 0: here, $*"\n').chmod(0o755)
+        self.file("build/edgewise_hashes", '#!/bin/bash\nshift\necho "0 0: here, $*"\n').chmod(0o755)
         result, lines = self.run_tests(QEMU_STATUS="1")
         self.assertEqual(result.returncode, 1)
         self.assertIn("\n< 0 0: here, --dump cube/3\n---\n> 0 0: there\n", result.stdout)

@@ -63,3 +63,18 @@ class FolderTest(unittest.TestCase):
 
     def with_tools(self, *command, **environment):
         return run(*command, **{**self.environment, **environment})
+
+
+class CopyTest(FolderTest):
+    """With a copy of the scripts, which take the test's folder for the project's."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(SCRIPTS, self.folder / "scripts", ignore=shutil.ignore_patterns("__pycache__", "README.md"))
+
+    def script(self, name, *arguments, **environment):
+        return self.with_tools(self.folder / "scripts" / name, *arguments, **environment)
+
+    def git(self, *words):
+        result = run("git", "-C", self.folder, "-c", "user.name=t", "-c", "user.email=t@t", *words)
+        self.assertEqual(result.returncode, 0, result.stderr)
