@@ -53,7 +53,7 @@ def peer_lines(bench):
         widest, version = bench.context["simd_target"], bench.context.get(peer, "unknown version")
         targets = [widest, *(target for target, (_, bits) in VECTORS.items() if target != widest and version.endswith(f", {bits} bits"))]
         speeds = [f"with {kernels(target)}, {VECTORS[target][1]} bits, "
-                  + "; ".join(f"{faster(bench, peer, n, target)} on {n} thread{'s' * (n > 1)}" for n in THREADS)
+                  + "; ".join(f"{faster(bench, peer, n, target)} on {n} thread{'s' * (n > 1)}" for n in THREADS if pairs(bench, peer, n, target))
                   for target in targets if pairs(bench, peer, max(THREADS), target)]
         most, why = max((row.counters.get(counter, 0), why) for n in THREADS for _, row in pairs(bench, peer, n) for counter, why in
                         (("depth_ties", "depth ties within tolerance"), ("wrong_px", "not portable")))

@@ -77,8 +77,9 @@ def configure(of):
         run(["git", "-C", ROOT, "--work-tree", of.source, "checkout", of.commit, "--", "."], "git checkout",
             env={**os.environ, "GIT_INDEX_FILE": of.build / "index"})
     pad(of, 1)  # CMake links its own checks with it
-    run(["cmake", "-S", of.source, "-B", of.build, "-G", "Ninja" if shutil.which("ninja") else "Unix Makefiles",
-         "-DCMAKE_BUILD_TYPE=Release", f'-DCMAKE_EXE_LINKER_FLAGS="{of.build}/padding.cpp"'], f"the configuration of {of.title}")
+    generator = ["-G", "Ninja"] if shutil.which("ninja") and not (of.build / "CMakeCache.txt").exists() else []
+    run(["cmake", "-S", of.source, "-B", of.build, *generator, "-DCMAKE_BUILD_TYPE=Release",
+         f'-DCMAKE_EXE_LINKER_FLAGS="{of.build}/padding.cpp"'], f"the configuration of {of.title}")
 
 
 def linked(of, path):

@@ -34,10 +34,13 @@ def p_value(cases, value):
 @cache
 def orders(n, m):
     """In how many orders of n + m repetitions the side with n loses 0, 1, … n·m of the pairs of one repetition of each side."""
-    if n == 0 or m == 0:
-        return [1]
-    # The slowest repetition is one of n, which loses to all m, or one of m.
-    return [a + b for a, b in zip([0] * m + orders(n - 1, m), orders(n, m - 1) + [0] * n)]
+    cases = [1] + [0] * (n * m)  # by generating functions: the product of (1 - q^(m+i)) / (1 - q^i) for i up to n
+    for i in range(1, n + 1):
+        for lost in range(n * m, m + i - 1, -1):
+            cases[lost] -= cases[lost - m - i]
+        for lost in range(i, n * m + 1):
+            cases[lost] += cases[lost - i]
+    return cases
 
 
 @cache

@@ -22,4 +22,4 @@ def platforms_table(path):
         hashes, tests, facts = (sum(int(match[1]) for text in texts if (match := pattern.search(text))) for pattern in FOUND)
         lines.append([name.replace("_", "-") + ("" if results == {"passed"} else ": **failed**"), tried,
                       *(f"{count:,}" if count else "–" for count in (hashes, tests)), "the same as on x86-64" if facts else "–"])
-    return ["platform", "tried by", "hashes compared, none differs", "tests of the library", "facts of small scenes, a file of each kind"], lines
+    return ["platform", "tried by", "hashes compared in all builds, none differs", "runs of the library's tests", "facts of small scenes, a file of each kind"], lines

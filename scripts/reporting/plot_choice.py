@@ -22,7 +22,7 @@ def choice_title(panels):
         others = [point.row for point in tight if not point.method.startswith(OURS)]
         return any(all(order(point.row, other) < 0 for other in others) for point in tight if point.method.startswith(OURS))
 
-    return f"Of these without holes, tiled is fastest in {sum(map(won, panels))} of {len(panels)} scenes"
+    return f"Of these without holes, tiled is settled fastest in {sum(map(won, panels))} of {len(panels)} scenes"
 
 
 def draw_points(axes, points):
@@ -39,7 +39,7 @@ def draw_points(axes, points):
         axes.plot(x, y, marker="^" if is_ours else "o", color=colour, markersize=7, markeredgecolor="white", markeredgewidth=0.8, zorder=3)
         name = point.method.removeprefix(OURS) if is_ours and point.method != FIRST else TITLES[point.method]
         labels.append(axes.annotate(name, (x, y), (0, 0), textcoords="offset pixels", color=colour, fontsize=9.5,
-                                    fontweight="bold" if is_ours else "normal", zorder=5, in_layout=False,
+                                    fontweight="bold" if is_ours else "normal", va="bottom", zorder=5, in_layout=False,
                                     arrowprops={"arrowstyle": "-", "color": FAINT, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 5}))
     return labels
 
@@ -71,8 +71,8 @@ def choice(accuracy, bench, folder, caption):
     subtitle = (f"Wrong pixels of a picture, mean and range of {found[0][0].frames} frames, against its time, from vertices to picture, on one "
                 "thread. Best is bottom left. Red: a hole shows in a frame. Dark grey: what projecting in floats alone gets wrong. Light grey: 0.")
     notes = ("Wrong: another triangle than in the exact picture of the scene's vertices. A hole: inside a surface, something else shows. llvmpipe "
-             "and SwiftShader are timed with their own projection and judged with ours. All others use our front end and "
-             f"{kernels(bench.context['simd_target'])}.\n{caption}")
+             "(SIMD of 256 bits) and SwiftShader (128 bits), where shown, are timed with their own projection and judged with ours. All others use "
+             f"our front end and {kernels(bench.context['simd_target'])}; all but tiled get their floats ready-made.\n{caption}")
     rows = (len(found) + 1) // 2
     figure, grid = chart(choice_title([points for _, points in found]), subtitle, notes, rows * PANEL_IN, (rows, 2), WIDTH_IN)
     labels = [draw_panel(axes, *panel) for axes, panel in zip(grid.flat, found)]

@@ -18,6 +18,9 @@ def tidy(value):
     mantissa, power = math.frexp(value)
     if mantissa == 0.5 and value < 0.1:
         return f"$2^{{{power - 1}}}$"
+    if 0 < value < 1e-3:
+        digits, power = f"{value:.0e}".split("e")
+        return "$" + ("" if digits == "1" else digits + r"\cdot ") + f"10^{{{int(power)}}}$"
     return short(value) if value % 1000 == 0 else number(value, 7)
 
 

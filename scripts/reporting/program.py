@@ -27,7 +27,10 @@ def main_guard(main):
 
 
 class Parser(argparse.ArgumentParser):
-    """For a main() that main_guard() runs: a wrong command line is bad input."""
+    """For a main() that main_guard() runs: a wrong command line is bad input. Options are not abbreviated."""
+
+    def __init__(self, **settings):
+        super().__init__(allow_abbrev=False, **settings)
 
     def error(self, message):
         raise BadInput(f"{message.replace('unrecognized arguments:', 'unknown argument')}; --help lists all")

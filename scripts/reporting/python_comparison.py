@@ -2,6 +2,7 @@
 import edgewise
 import numpy as np
 
+from program import BadInput
 from python_drawers import DRAWERS, FOV_Y, THREADS, Drawer, Mesh, View
 
 OURS = "edgewise"
@@ -32,6 +33,8 @@ BUILT_IN = {"sphere": (192, 128, ball), "terrain": (512, 512, hills)}
 
 def read_obj(path):
     mesh = edgewise.Scene.read_obj(path).meshes()[0]
+    if len(mesh.triangles) >= 1 << 24:
+        raise BadInput(f"{path}: too many triangles for ids of 24 bits")
     return Mesh(mesh.positions.astype(np.float32), mesh.triangles)
 
 

@@ -150,6 +150,8 @@ def make(name):
     os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:THREADS])
     os.environ.update(LIBGL_ALWAYS_SOFTWARE="1", GALLIUM_DRIVER="llvmpipe", LP_NUM_THREADS=str(THREADS))
     here = DRAWERS[name]()
+    if "llvmpipe" not in here.version and name != "edgewise":
+        raise RuntimeError(f"{here.version} is not llvmpipe")
     return here.version
 
 

@@ -1,8 +1,8 @@
 """Adds up the lines of `edgewise verify --random --json FILE`, one per shard, to one line on stdout."""
-import fileinput
 import json
+import sys
 
-from program import BadInput, main_guard
+from program import BadInput, main_guard, read_json
 
 ADDED = ("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists", "differences", "seconds", "findings")
 
@@ -18,7 +18,7 @@ def added(lines):
 
 def main():
     try:
-        lines = [json.loads(line) for line in fileinput.input(encoding="utf-8")]
+        lines = [read_json(path) for path in sys.argv[1:]]
         runs = {(line["seed"], line["commit"], line["shard"].partition("/")[2]) for line in lines}
         if len(runs) > 1 or len({line["shard"] for line in lines}) < len(lines):
             raise BadInput("only different shards of one seed, number of shards and commit add up")

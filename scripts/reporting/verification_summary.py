@@ -5,7 +5,7 @@ from pathlib import Path
 from bench_rows import records
 from program import main_guard, read_json
 from shards import added
-from tables import enumerated, kernels, short
+from tables import enumerated, short
 
 RECORDS = ("verify", "tests", "prove", "mutate", "fuzz", "random")
 
@@ -51,8 +51,7 @@ def lines_of(record, data):
             yield ("Fuzzing", f"{short(executions)} executions in {data['cpu_hours']:.1f} CPU hours",
                    none_or(crashes, "crash", "crashes"))
         case "random":
-            targets = enumerated([kernels(target) for target in data["simd_targets"]])
-            yield ("Random pictures", f"{short(data['cases'])} pictures in {targets}, {short(data['pixels'])} pixels compared",
+            yield ("Random pictures", f"{short(data['cases'])} pictures, {short(data['pixels'])} pixels compared",
                    none_or(data["differences"], "difference", "differences"))
 
 
@@ -64,16 +63,17 @@ def verification_table(folder):
 
 
 def elsewhere(folder):
-    """A sentence that names the commits of records of other machines."""
+    """A sentence that names the records of other machines, with their commits if they hold any."""
     paths = [path for record in RECORDS for path in records(folder, record)[:None if record == "random" else 1] if path.parent != folder]
-    told = [f"{path.stem} at {read_json(path).get('commit')}" for path in paths]
-    return f"Of other commits: {enumerated(told)}." if told else ""
+    told = [f"{path.stem} ({read_json(path).get('commit', path.parent.name)})" for path in paths]
+    return f"These records are of other machines and commits: {enumerated(told)}." if told else ""
 
 
 def main():
-    header, lines = verification_table(Path(sys.argv[1]))  # of results/MACHINE
+    folder = Path(sys.argv[1])  # results/MACHINE
+    header, lines = verification_table(folder)
     widths = [max(map(len, column)) for column in zip(header, *lines)]
-    print(*("  ".join(map(str.ljust, line, widths)).rstrip() for line in (header, *lines)), sep="\n")
+    print(*("  ".join(map(str.ljust, line, widths)).rstrip() for line in (header, *lines)), elsewhere(folder), sep="\n")
 
 
 if __name__ == "__main__":
