@@ -22,7 +22,7 @@ def choice_title(panels):
         others = [point.row for point in tight if not point.method.startswith(OURS)]
         return any(all(order(point.row, other) < 0 for other in others) for point in tight if point.method.startswith(OURS))
 
-    return f"Of these without holes, tiled is settled fastest in {sum(map(won, panels))} of {len(panels)} scenes"
+    return f"Without holes, tiled is settled fastest in {sum(map(won, panels))} of {len(panels)} scenes"
 
 
 def draw_points(axes, points):
