@@ -39,11 +39,9 @@ class Parser(argparse.ArgumentParser):
 def positive(kind):
     """The type of an option."""
     def number(text):
-        if not 0 < (value := kind(text)) < 1e6:
-            raise ValueError
-        return value
-
-    number.__name__ = f"positive {kind.__name__}"
+        if 0 < (value := kind(text)) < 1e6:
+            return value
+        raise argparse.ArgumentTypeError(f"{text} is not between 0 and a million")
     return number
 
 

@@ -29,7 +29,7 @@ def python_lines(folder):
         return "No other Python package was measured here; `scripts/run --full --peers` does."
 
     def told(data):
-        peers = "\n".join(against(peer, data) for peer in PEERS)
-        return f"{peers}\n\nOn 2 threads; `{path.parent.name}`, commit {data['commit']}. A scene is a mesh at one size."
+        source = f"On 2 threads; `{path.parent.name}`, commit {data['commit']}. A scene is a mesh at one size."
+        return "\n".join([*(against(peer, data) for peer in PEERS), "", source])
 
     return parsed(path, told, "scripts/python_peers")

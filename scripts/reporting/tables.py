@@ -25,7 +25,7 @@ def number(value, digits=3):
 
 
 def milliseconds(row):
-    """With three digits, "–" for no row."""
+    """"–" for no row."""
     return f"{row.median_ms:,.{3 - bisect((1, 10, 100), row.median_ms)}f}" if row else "–"
 
 
