@@ -10,7 +10,7 @@ TITLES = {"float_lt": "strict <", "float_le": "loose ≤", "float_top_left": "fl
           "swiftshader": "SwiftShader"}
 OURS = "tiled_"
 
-Wrong = namedtuple("Wrong", "mean least most holes")  # wrong pixels a frame, and the holes of all frames
+Wrong = namedtuple("Wrong", "mean least most holes")  # wrong pixels per frame, and the holes of all frames
 Point = namedtuple("Point", "method wrong row")  # with the time of the first frame
 
 

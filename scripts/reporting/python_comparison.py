@@ -66,7 +66,7 @@ def timed(drawers, mesh, view, rounds):
 
 
 def comparison(meshes, sizes, rounds):
-    """What goes to python.json. BadInput if a package is missing or draws nothing."""
+    """What goes to python.json. BadInput if a package is missing, or fails."""
     drawers = {name: Drawer(name) for name in DRAWERS}
     pictures = []
     for name, mesh in meshes.items():

@@ -83,11 +83,10 @@ void FrameDrawer::draw(const Drawable& drawable, const ChoiceMethod& method, Pay
   }
   options.keep_unsnapped = true;
   const auto screen = frontend_.run(drawable, options, execution);
+  const auto unsnapped = frontend_.unsnapped();
   snapped_.assign(screen.begin(), screen.end());
-  floats_.clear();
-  floats_.reserve(screen.size());
-  for (std::size_t i = 0; i < screen.size(); ++i)
-    floats_.push_back({frontend_.unsnapped()[i], screen[i].payload});
+  floats_.resize(screen.size());
+  for (std::size_t i = 0; i < floats_.size(); ++i) floats_[i] = {unsnapped[i], screen[i].payload};
   method.method->draw({floats_, snapped_}, canvas_, execution);
 }
 
